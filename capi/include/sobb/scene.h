@@ -1,0 +1,109 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/**
+ * @file scene.h
+ * @brief Triangles in: scene files and built-in scenes, for tools. A second library (sobb_scene),
+ *        so that a program that only traces links no importer.
+ *
+ * Formats, told by the file's ending: glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, OFF. Every triangle of
+ * the file counts, in the file's order; polygons are triangulated as fans; degenerate triangles are
+ * kept and counted. Materials, textures, animation and skins are ignored, images never decoded.
+ *
+ * Built-in scenes: `builtin:NAME[:TRIANGLES][@DEGREES]` with NAME one of hairball, wool, pipes,
+ * foliage, city, terrain; 250,000 triangles unless said, as near as the scene's parts allow and
+ * never more; `@DEGREES` turns the scene, and its views with it, about an oblique axis. The same
+ * name gives the same bits on every machine.
+ *
+ * Errors and struct_size are as in sobb.h; messages by sobb_last_error(). All functions are
+ * thread-safe; a scene is immutable.
+ */
+#ifndef SOBB_SCENE_H
+#define SOBB_SCENE_H
+
+#include "sobb/sobb.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sobb_scene sobb_scene; /**< immutable, reference-counted */
+
+/** A pinhole view. */
+typedef struct sobb_view {
+  float eye[3];
+  float target[3];
+  float up[3];
+  float vfov_degrees; /**< the whole vertical angle */
+} sobb_view;
+
+/** A mesh of the file as placed in the scene: a range of the scene's triangles. */
+typedef struct sobb_mesh {
+  const char* name; /**< UTF-8, owned by the scene; "" if it has none */
+  uint64_t first_triangle;
+  uint64_t triangle_count;
+} sobb_mesh;
+
+/** Options of sobb_scene_load(). Zero in a member means its default. */
+typedef struct sobb_scene_options {
+  uint32_t struct_size;
+  uint32_t reserved;
+  /**
+   * A JSON file of views: {"STEM": [{"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z],
+   * "vfov_degrees": a}, …], …}, STEM the scene file's name without folder and ending. NULL: the
+   * file `cameras.json` beside the scene, if there is one.
+   */
+  const char* views_path;
+  uint64_t memory_limit; /**< bytes that the scene may take; 0 for none */
+} sobb_scene_options;
+
+/** What a scene is; filled by sobb_scene_get_info(). */
+typedef struct sobb_scene_info {
+  uint32_t struct_size;
+  uint32_t default_view; /**< 1 where the file had no view and a default was made, else 0 */
+  uint64_t vertex_count;
+  uint64_t triangle_count;
+  uint64_t degenerate_count; /**< triangles of zero area: two equal corners, or in a line */
+  uint64_t mesh_count;
+  uint64_t view_count; /**< at least 1 */
+  float bounds_min[3]; /**< of the vertices that triangles use */
+  float bounds_max[3];
+} sobb_scene_info;
+
+/**
+ * Loads a scene.
+ * @param source a path, or `builtin:…`.
+ * @param options NULL for the defaults.
+ * @param out the new handle, with one reference, to be given to sobb_scene_release().
+ * @return SOBB_ERROR_FILE_OPEN, _FILE_READ; SOBB_ERROR_SCENE_FORMAT (unknown ending or built-in
+ *         name), _SCENE_SYNTAX (the message names the line, element or accessor),
+ *         _SCENE_UNSUPPORTED (the extension or feature), _SCENE_REFERENCE (the missing or short
+ *         file); SOBB_ERROR_INDEX, _NOT_FINITE, _TOO_LARGE, _EMPTY; _OUT_OF_MEMORY, _MEMORY_LIMIT.
+ *
+ * Views are those of @p options, else of a `cameras.json` beside the file, else the cameras of a
+ * glTF, else one default: from the box's centre c with half diagonal h, the eye at
+ * c + 2.2 h (0.48, 0.36, 0.8), looking at c, up y, vfov 50 degrees.
+ */
+SOBB_API sobb_status sobb_scene_load(const char* source, const sobb_scene_options* options,
+                                     sobb_scene** out);
+
+/** Adds a reference. NULL is allowed. Returns its argument. */
+SOBB_API sobb_scene* sobb_scene_retain(sobb_scene* scene);
+/** Drops a reference; the last frees the scene. NULL is allowed. */
+SOBB_API void sobb_scene_release(sobb_scene* scene);
+
+/** Fills @p info up to its struct_size. */
+SOBB_API sobb_status sobb_scene_get_info(const sobb_scene* scene, sobb_scene_info* info);
+
+/** The scene's triangles, ready for sobb_build(); the arrays live as long as the scene. */
+SOBB_API sobb_status sobb_scene_triangles(const sobb_scene* scene, sobb_triangles* triangles);
+
+/** Mesh @p index; SOBB_ERROR_INVALID_ARGUMENT beyond mesh_count. Ranges are in order, disjoint. */
+SOBB_API sobb_status sobb_scene_mesh(const sobb_scene* scene, uint64_t index, sobb_mesh* mesh);
+
+/** View @p index; SOBB_ERROR_INVALID_ARGUMENT beyond view_count. */
+SOBB_API sobb_status sobb_scene_view(const sobb_scene* scene, uint64_t index, sobb_view* view);
+
+#ifdef __cplusplus
+} /* extern "C" */
+#endif
+
+#endif /* SOBB_SCENE_H */

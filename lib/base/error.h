@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// A failure inside the library: a status and a message that names the place and the cause.
+#pragma once
+
+#include <cstdarg>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// Thrown by every stage, caught at the C boundary (capi/src/guard.h), never beyond it.
+class Error : public std::runtime_error {
+ public:
+  Error(sobb_status status, const std::string& message)
+      : std::runtime_error(message), status(status) {}
+
+  sobb_status status;
+};
+
+// Throws an Error with a printf-style message.
+[[noreturn]] __attribute__((format(printf, 2, 3))) inline void fail(sobb_status status,
+                                                                    const char* format, ...) {
+  char message[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  throw Error(status, message);
+}
+
+}  // namespace sobb

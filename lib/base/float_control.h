@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The floating-point control word that all results rest on.
+#pragma once
+
+#include <xmmintrin.h>
+
+namespace sobb {
+
+// While one lives on a thread: round to nearest, denormals kept, exceptions masked. Restores what
+// it found.
+class FloatControl {
+ public:
+  FloatControl() : found_(_mm_getcsr()) {
+    if (found_ != kDefault) _mm_setcsr(kDefault);
+  }
+  ~FloatControl() { _mm_setcsr(found_); }
+  FloatControl(const FloatControl&) = delete;
+  FloatControl& operator=(const FloatControl&) = delete;
+
+ private:
+  static constexpr unsigned kDefault = 0x1F80;
+  unsigned found_;
+};
+
+}  // namespace sobb

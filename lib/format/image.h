@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bytes of a hierarchy: the file, in memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "base/memory.h"
+
+namespace sobb {
+
+// Owns the bytes of one file image, private (from a Memory) or mapped. Move-only.
+class Image {
+ public:
+  Image() = default;
+  // Private zeroed bytes, aligned to 64 or, where large, to huge pages.
+  static Image allocate(std::shared_ptr<Memory> memory, uint64_t size);
+  // A private copy of a file. Errors: FILE_OPEN, FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT.
+  static Image read(std::shared_ptr<Memory> memory, const char* path);
+  // The file where it lies, read-only. Errors: FILE_OPEN, FILE_READ.
+  static Image map(const char* path);
+
+  Image(Image&& other) noexcept;
+  Image& operator=(Image&& other) noexcept;
+  ~Image();
+
+  std::span<std::byte> bytes() { return {data_, size_}; }  // not of a mapping
+  std::span<const std::byte> bytes() const { return {data_, size_}; }
+
+ private:
+  std::byte* data_ = nullptr;
+  uint64_t size_ = 0;
+  std::shared_ptr<Memory> memory_;  // null for a mapping
+};
+
+}  // namespace sobb
