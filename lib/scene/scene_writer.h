@@ -2,6 +2,7 @@
 // How an importer hands over its triangles: checked as they come, so that no importer repeats it.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,34 +17,69 @@ class SceneWriter {
  public:
   SceneWriter(std::string name, uint64_t memory_limit, Scene& scene);
 
-  // Starts a mesh; vertices and triangles that follow are its own.
+  // Starts a mesh; triangles that follow are its own. A mesh without triangles leaves no trace.
   void begin_mesh(std::string name);
 
-  // Adds a vertex. `place` says where in the source, as in "line 12" or "mesh 3, vertex 7".
+  // Adds a vertex. `place` says where in the source, as in "line 12" or "mesh 3, vertex 7": text,
+  // or a function that makes it, called for an error only, where making it would cost too much.
   // Errors: NOT_FINITE, TOO_LARGE (beyond 2^60), MEMORY_LIMIT.
-  void add_vertex(float x, float y, float z, const char* place);
+  void add_vertex(float x, float y, float z, const char* place) {
+    add_vertex(x, y, z, [place] { return std::string(place); });
+  }
+  template <std::invocable Place>
+  void add_vertex(float x, float y, float z, const Place& place) {
+    if (!in_range(x) || !in_range(y) || !in_range(z)) refuse_vertex(x, y, z, place());
+    std::vector<float>& vertices = scene_.vertices;
+    if (vertices.capacity() - vertices.size() < 3) grow_vertices();
+    vertices.insert(vertices.end(), {x, y, z});
+  }
 
   // Vertices so far, over all meshes: what indices of a mesh are relative to is the importer's.
   uint64_t vertex_count() const { return scene_.vertices.size() / 3; }
 
   // Adds a polygon of at least three corners as a fan about its first: corners are indices into
-  // all vertices so far. Errors: INDEX (corner and place named), SCENE_SYNTAX for fewer than three
-  // corners, TOO_LARGE, MEMORY_LIMIT.
-  void add_polygon(std::span<const uint64_t> corners, const char* place);
+  // all vertices so far. `place` as above. Errors: INDEX (corner and place named), SCENE_SYNTAX
+  // for fewer than three corners, TOO_LARGE, MEMORY_LIMIT.
+  void add_polygon(std::span<const uint64_t> corners, const char* place) {
+    add_polygon(corners, [place] { return std::string(place); });
+  }
+  template <std::invocable Place>
+  void add_polygon(std::span<const uint64_t> corners, const Place& place) {
+    const uint64_t vertices = vertex_count();
+    bool good = corners.size() >= 3;
+    for (const uint64_t corner : corners) good &= corner < vertices;
+    if (!good) refuse_polygon(corners, place());
+    std::vector<uint32_t>& indices = scene_.indices;
+    for (size_t i = 2; i < corners.size(); ++i) {
+      if (indices.capacity() - indices.size() < 3) grow_indices();
+      indices.insert(indices.end(),
+                     {uint32_t(corners[0]), uint32_t(corners[i - 1]), uint32_t(corners[i])});
+    }
+  }
 
   // The bytes that `count` more vertices and triangles will take are known: refuse them early.
   // A file that declares more than it can hold must be refused by its reader before this.
   void expect(uint64_t vertices, uint64_t triangles);
 
-  // Ends the scene. Error EMPTY where no triangle came.
+  // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds. Error
+  // EMPTY where no triangle came.
   void finish();
 
  private:
-  void charge(uint64_t bytes);
+  static constexpr float kLargest = 0x1p60F;
+  static bool in_range(float x) { return x >= -kLargest && x <= kLargest; }  // not for NaN
+
+  [[noreturn]] void refuse_vertex(float x, float y, float z, const std::string& place) const;
+  [[noreturn]] void refuse_polygon(std::span<const uint64_t> corners,
+                                   const std::string& place) const;
+  void grow_vertices();
+  void grow_indices();
+  void end_mesh();
+  template <class T>
+  void reserve(std::vector<T>& array, uint64_t size, uint64_t other_bytes);
 
   std::string name_;
   uint64_t memory_limit_;
-  uint64_t charged_ = 0;
   Scene& scene_;
 };
 

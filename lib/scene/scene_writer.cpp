@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// See scene_writer.h.
+#include "scene/scene_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "scene/utf8.h"
+
+namespace sobb {
+namespace {
+
+constexpr uint64_t kMaxVertices = uint64_t(1) << 32;
+constexpr uint64_t kMaxTriangles = (uint64_t(1) << 32) - 3;
+
+// Half as much again for an array of triples that is full, so that growing stays cheap.
+uint64_t roomy(uint64_t size, uint64_t max_triples) {
+  return std::min(3 * max_triples, std::max<uint64_t>(3 * 64, size + size / 2 + 3));
+}
+
+// Twice the triangle's area is |(b - a) x (c - a)|; the products are exact in double but for the
+// edges' own rounding.
+bool has_area(const float* a, const float* b, const float* c) {
+  double e[3];
+  double f[3];
+  for (int k = 0; k < 3; ++k) {
+    e[k] = double(b[k]) - double(a[k]);
+    f[k] = double(c[k]) - double(a[k]);
+  }
+  return e[1] * f[2] != e[2] * f[1] || e[2] * f[0] != e[0] * f[2] || e[0] * f[1] != e[1] * f[0];
+}
+
+}  // namespace
+
+SceneWriter::SceneWriter(std::string name, uint64_t memory_limit, Scene& scene)
+    : name_(std::move(name)), memory_limit_(memory_limit), scene_(scene) {}
+
+void SceneWriter::begin_mesh(std::string name) {
+  end_mesh();
+  scene_.meshes.push_back({valid_utf8(std::move(name)), scene_.indices.size() / 3, 0});
+}
+
+void SceneWriter::end_mesh() {
+  const uint64_t triangles = scene_.indices.size() / 3;
+  if (scene_.meshes.empty()) {
+    // Triangles that came before any mesh was begun are a mesh too.
+    if (triangles > 0) scene_.meshes.push_back({"", 0, triangles});
+    return;
+  }
+  SceneMesh& mesh = scene_.meshes.back();
+  mesh.triangle_count = triangles - mesh.first_triangle;
+  if (mesh.triangle_count == 0) scene_.meshes.pop_back();
+}
+
+void SceneWriter::refuse_vertex(float x, float y, float z, const std::string& place) const {
+  const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
+  fail(finite ? SOBB_ERROR_TOO_LARGE : SOBB_ERROR_NOT_FINITE, "%s: %s: vertex (%g, %g, %g) is %s",
+       name_.c_str(), place.c_str(), double(x), double(y), double(z),
+       finite ? "beyond 2^60" : "not finite");
+}
+
+void SceneWriter::refuse_polygon(std::span<const uint64_t> corners,
+                                 const std::string& place) const {
+  if (corners.size() < 3) {
+    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s: a face of %zu corners", name_.c_str(), place.c_str(),
+         corners.size());
+  }
+  size_t i = 0;
+  while (corners[i] < vertex_count()) ++i;
+  fail(SOBB_ERROR_INDEX, "%s: %s: corner %zu names vertex %llu of %llu", name_.c_str(),
+       place.c_str(), i, static_cast<unsigned long long>(corners[i]),
+       static_cast<unsigned long long>(vertex_count()));
+}
+
+// Makes room for `size` elements where the limit allows; `other_bytes` are those of the other
+// array. The old elements live until they are moved, so they count beside the new ones.
+template <class T>
+void SceneWriter::reserve(std::vector<T>& array, uint64_t size, uint64_t other_bytes) {
+  const uint64_t bytes = (size + array.capacity()) * sizeof(T) + other_bytes;
+  if (memory_limit_ != 0 && bytes > memory_limit_) {
+    fail(SOBB_ERROR_MEMORY_LIMIT, "%s: the scene needs %llu bytes, the limit is %llu",
+         name_.c_str(), static_cast<unsigned long long>(bytes),
+         static_cast<unsigned long long>(memory_limit_));
+  }
+  array.reserve(size);
+}
+
+void SceneWriter::grow_vertices() {
+  const uint64_t size = scene_.vertices.size();
+  if (size / 3 >= kMaxVertices) {
+    fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices", name_.c_str());
+  }
+  reserve(scene_.vertices, roomy(size, kMaxVertices), scene_.indices.capacity() * sizeof(uint32_t));
+}
+
+void SceneWriter::grow_indices() {
+  const uint64_t size = scene_.indices.size();
+  if (size / 3 >= kMaxTriangles) {
+    fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 - 3 triangles", name_.c_str());
+  }
+  reserve(scene_.indices, roomy(size, kMaxTriangles), scene_.vertices.capacity() * sizeof(float));
+}
+
+void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
+  if (vertices > kMaxVertices - std::min(kMaxVertices, vertex_count()) ||
+      triangles > kMaxTriangles - std::min<uint64_t>(kMaxTriangles, scene_.indices.size() / 3)) {
+    fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices or 2^32 - 3 triangles", name_.c_str());
+  }
+  // Where a file declares its meshes one by one, each must not move the arrays again.
+  const auto enough = [](uint64_t size, uint64_t more) {
+    return size == 0 ? 3 * more : std::max(size + 3 * more, size + size / 2);
+  };
+  if (scene_.vertices.capacity() - scene_.vertices.size() < 3 * vertices) {
+    reserve(scene_.vertices, enough(scene_.vertices.size(), vertices),
+            scene_.indices.capacity() * sizeof(uint32_t));
+  }
+  if (scene_.indices.capacity() - scene_.indices.size() < 3 * triangles) {
+    reserve(scene_.indices, enough(scene_.indices.size(), triangles),
+            scene_.vertices.capacity() * sizeof(float));
+  }
+}
+
+void SceneWriter::finish() {
+  end_mesh();
+  if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
+  scene_.bounds_min.fill(std::numeric_limits<float>::infinity());
+  scene_.bounds_max.fill(-std::numeric_limits<float>::infinity());
+  for (size_t i = 0; i < scene_.indices.size(); i += 3) {
+    const float* corners[3];
+    for (int c = 0; c < 3; ++c) {
+      corners[c] = &scene_.vertices[size_t(3) * scene_.indices[i + c]];
+      for (int k = 0; k < 3; ++k) {
+        scene_.bounds_min[k] = std::min(scene_.bounds_min[k], corners[c][k]);
+        scene_.bounds_max[k] = std::max(scene_.bounds_max[k], corners[c][k]);
+      }
+    }
+    scene_.degenerate_count += has_area(corners[0], corners[1], corners[2]) ? 0 : 1;
+  }
+}
+
+}  // namespace sobb
