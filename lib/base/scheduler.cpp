@@ -4,7 +4,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <algorithm>
 #include <exception>
 #include <mutex>
 
@@ -13,13 +12,15 @@
 namespace sobb {
 namespace {
 
-// The exception of the lowest index, kept until the loop has ended.
-class FirstException {
+// A loop under way: its body, and the exception of the lowest index until the loop has ended.
+class Loop {
  public:
-  void run(uint64_t index, const std::function<void(uint64_t)>& body) {
+  Loop(void (*body)(void*, uint64_t), void* context) : body_(body), context_(context) {}
+
+  void run(uint64_t index) noexcept {
     const FloatControl control;
     try {
-      body(index);
+      body_(context_, index);
     } catch (...) {
       const std::scoped_lock lock(mutex_);
       if (!exception_ || index < index_) {
@@ -34,6 +35,8 @@ class FirstException {
   }
 
  private:
+  void (*body_)(void*, uint64_t);
+  void* context_;
   std::mutex mutex_;
   std::exception_ptr exception_;
   uint64_t index_ = 0;
@@ -41,41 +44,27 @@ class FirstException {
 
 }  // namespace
 
-Scheduler::Scheduler(uint32_t threads, const sobb_scheduler* callback)
-    : threads_(threads), callback_(callback) {}
-
-void Scheduler::for_each(uint64_t count, const std::function<void(uint64_t)>& body) const {
-  FirstException first;
-  const auto run = [&](uint64_t index) { first.run(index, body); };
+void Scheduler::run(uint64_t count, void (*body)(void*, uint64_t), void* context) const {
+  Loop loop(body, context);
   if (callback_ != nullptr) {
-    const auto trampoline = [](void* context, uint64_t index) {
-      (*static_cast<decltype(run)*>(context))(index);
-    };
-    callback_->parallel_for(callback_->user, count, trampoline,
-                            const_cast<void*>(static_cast<const void*>(&run)));
+    const auto run_one = [](void* of, uint64_t index) { static_cast<Loop*>(of)->run(index); };
+    callback_->parallel_for(callback_->user, count, run_one, &loop);
   } else if (threads_ == 1 || count <= 1) {
-    for (uint64_t i = 0; i < count; ++i) run(i);
+    for (uint64_t i = 0; i < count; ++i) loop.run(i);
   } else {
-    within_arena([&] { tbb::parallel_for(uint64_t{0}, count, run); });
+    within_arena([&] { tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) { loop.run(i); }); });
   }
-  first.rethrow();
+  loop.rethrow();
 }
 
-void Scheduler::for_ranges(uint64_t count, uint64_t grain,
-                           const std::function<void(uint64_t, uint64_t)>& body) const {
-  for_each((count + grain - 1) / grain, [&](uint64_t range) {
-    body(range * grain, std::min(count, (range + 1) * grain));
-  });
-}
-
-void Scheduler::within_arena(const std::function<void()>& body) const {
+void Scheduler::run_in_arena(void (*body)(void*), void* context) const {
   const bool serial = callback_ != nullptr || threads_ == 1;
   if (!serial && threads_ == 0) {
-    body();
+    body(context);
     return;
   }
   tbb::task_arena arena(serial ? 1 : static_cast<int>(threads_));
-  arena.execute(body);
+  arena.execute([&] { body(context); });
 }
 
 }  // namespace sobb

@@ -2,34 +2,51 @@
 // Parallel loops: on TBB, on the caller's thread pool, or on the calling thread alone.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <functional>
+#include <type_traits>
 
 #include "sobb/sobb.h"
 
 namespace sobb {
 
 // Thread-safe. Loop bodies run with the default floating-point control word. An exception from a
-// body is rethrown by the loop, once the bodies under way have ended; of several, the one with the
-// lowest index, so that a message does not depend on the threads.
+// body is rethrown by the loop, once all bodies have ended; of several, the one with the lowest
+// index, so that a message does not depend on the threads. Loops allocate nothing.
 class Scheduler {
  public:
   // `threads` as in sobb_build_options: 1 is serial, 0 all that TBB gives. `callback` may be null.
-  Scheduler(uint32_t threads, const sobb_scheduler* callback);
+  Scheduler(uint32_t threads, const sobb_scheduler* callback)
+      : threads_(threads), callback_(callback) {}
 
   // body(i) once for each i < count.
-  void for_each(uint64_t count, const std::function<void(uint64_t)>& body) const;
+  template <class Body>
+  void for_each(uint64_t count, Body&& body) const {
+    using Plain = std::remove_reference_t<Body>;
+    run(count, [](void* context, uint64_t i) { (*static_cast<Plain*>(context))(i); }, &body);
+  }
 
   // body(begin, end) over consecutive ranges of at most `grain` items that cover [0, count).
   // The ranges depend on `count` and `grain` alone.
-  void for_ranges(uint64_t count, uint64_t grain,
-                  const std::function<void(uint64_t, uint64_t)>& body) const;
+  template <class Body>
+  void for_ranges(uint64_t count, uint64_t grain, Body&& body) const {
+    for_each((count + grain - 1) / grain, [&](uint64_t range) {
+      body(range * grain, std::min(count, (range + 1) * grain));
+    });
+  }
 
   // Runs body within a TBB arena of this scheduler's size (of one in serial mode and with a
   // callback), for libraries that use TBB by themselves.
-  void within_arena(const std::function<void()>& body) const;
+  template <class Body>
+  void within_arena(Body&& body) const {
+    using Plain = std::remove_reference_t<Body>;
+    run_in_arena([](void* context) { (*static_cast<Plain*>(context))(); }, &body);
+  }
 
  private:
+  void run(uint64_t count, void (*body)(void*, uint64_t), void* context) const;
+  void run_in_arena(void (*body)(void*), void* context) const;
+
   uint32_t threads_;
   const sobb_scheduler* callback_;
 };

@@ -381,7 +381,7 @@ enum { SOBB_FREE = 0, SOBB_OCCLUDED = 1, SOBB_OCCLUDED_INVALID = 255 };
 
 /**
  * Closest hits of an array of rays.
- * @param rays @p count rays; no alignment is asked.
+ * @param rays @p count rays; no alignment is asked beyond `float`'s.
  * @param hits @p count hits, written in the order of the rays. May not overlap @p rays.
  * @return SOBB_ERROR_INVALID_ARGUMENT or SOBB_ERROR_UNSUPPORTED_CPU. A ray that is not valid gets
  *         SOBB_INVALID and is counted; the others are traced all the same.

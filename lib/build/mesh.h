@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The caller's triangles, checked once.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <memory_resource>
+
+#include "base/scheduler.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+struct Point {
+  float x, y, z;
+};
+
+// Borrowed triangles in which every index is in range and every coordinate that a triangle uses is
+// finite and within 2^60.
+class Mesh {
+ public:
+  // Throws INVALID_ARGUMENT, EMPTY, INDEX, NOT_FINITE or TOO_LARGE, naming the first culprit.
+  Mesh(const sobb_triangles& triangles, const Scheduler& scheduler);
+
+  uint64_t triangle_count() const { return triangle_count_; }
+
+  Point vertex(uint64_t index) const {
+    Point point;
+    std::memcpy(&point, vertices_ + index * stride_, sizeof point);
+    return point;
+  }
+  // Corner 0, 1 or 2 of a triangle.
+  Point corner(uint64_t triangle, int i) const { return vertex(indices_[3 * triangle + i]); }
+  uint32_t index(uint64_t triangle, int i) const { return indices_[3 * triangle + i]; }
+
+ private:
+  const unsigned char* vertices_;
+  uint64_t vertex_count_;
+  uint64_t stride_;
+  const uint32_t* indices_;
+  uint64_t triangle_count_;
+};
+
+// What the header and the build record say of the mesh.
+struct MeshSummary {
+  Point lower;  // the box of the vertices that triangles use
+  Point upper;
+  Point centre;
+  float radius;  // no used vertex is further from the centre
+  uint64_t degenerate_count;
+  uint64_t source_hash;
+};
+
+// In parallel; the same for any number of threads.
+MeshSummary summarise(const Mesh& mesh, const Scheduler& scheduler,
+                      std::pmr::memory_resource& scratch);
+
+}  // namespace sobb

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one ray-triangle test that decides. Every kernel and the oracle call this code, so that all
+// return the same bits.
+//
+// After S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection" (2013), with the
+// projection in double and rounded once to float. Then
+//   - a vertex has one projection a ray, whichever triangle asks: no gap between neighbours;
+//   - products of two floats are exact in double: an edge function has the sign, and but for one
+//     rounding the value, of exact arithmetic on the projected vertices. So the barycentric
+//     weights, and t, are those of a triangle whose vertices moved by at most half an ulp of their
+//     distance from the ray, even for one seen edge-on: the hit point never leaves the volumes
+//     that bound the triangle by more than their offsets allow (ray_table-inl.h).
+#pragma once
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// Whether a ray is one that sobb.h promises a result for.
+inline bool is_valid(const sobb_ray& ray) {
+  float largest = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (!(std::fabs(ray.origin[k]) <= FLT_MAX) || !(std::fabs(ray.direction[k]) <= FLT_MAX)) {
+      return false;
+    }
+    largest = std::max(largest, std::fabs(ray.direction[k]));
+  }
+  return largest > 0 && ray.tmin >= 0 && ray.tmax == ray.tmax;
+}
+
+// A ray as the test wants it: axes permuted so that the direction is largest along z.
+struct TriangleRay {
+  int axis[3];       // which axes are x, y, z
+  double origin[3];  // permuted
+  double shear_x;    // d_x / d_z
+  double shear_y;
+  double direction_z;
+
+  explicit TriangleRay(const sobb_ray& ray) {
+    const float x = std::fabs(ray.direction[0]);
+    const float y = std::fabs(ray.direction[1]);
+    const float z = std::fabs(ray.direction[2]);
+    axis[2] = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+    axis[0] = axis[2] == 2 ? 0 : axis[2] + 1;
+    axis[1] = axis[0] == 2 ? 0 : axis[0] + 1;
+    for (int k = 0; k < 3; ++k) origin[k] = ray.origin[axis[k]];
+    direction_z = ray.direction[axis[2]];
+    shear_x = ray.direction[axis[0]] / direction_z;
+    shear_y = ray.direction[axis[1]] / direction_z;
+  }
+};
+
+struct TriangleHit {
+  float t, u, v;
+};
+
+// Intersects the triangle of vertices (x[i], y[i], z[i]), given in the ray's permuted axes. The
+// caller compares t with the ray's interval. Degenerate and exactly edge-on triangles are missed.
+inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const float y[3],
+                               const float z[3], TriangleHit& hit) {
+  double px[3];
+  double py[3];
+  double pz[3];
+  for (int i = 0; i < 3; ++i) {
+    pz[i] = z[i] - ray.origin[2];
+    px[i] = static_cast<float>((x[i] - ray.origin[0]) - ray.shear_x * pz[i]);
+    py[i] = static_cast<float>((y[i] - ray.origin[1]) - ray.shear_y * pz[i]);
+  }
+  // Weights of the vertices, up to their sum: areas of the triangles that the ray and an edge make.
+  const double w0 = px[2] * py[1] - py[2] * px[1];
+  const double w1 = px[0] * py[2] - py[0] * px[2];
+  const double w2 = px[1] * py[0] - py[1] * px[0];
+  const bool inside = (w0 >= 0 && w1 >= 0 && w2 >= 0) || (w0 <= 0 && w1 <= 0 && w2 <= 0);
+  const double sum = w0 + w1 + w2;
+  if (!inside || sum == 0) return false;
+  hit.t = static_cast<float>((w0 * pz[0] + w1 * pz[1] + w2 * pz[2]) / (sum * ray.direction_z));
+  hit.t += 0.0F;  // -0 becomes 0
+  hit.u = static_cast<float>(w1 / sum);
+  hit.v = static_cast<float>(w2 / sum);
+  return true;
+}
+
+// The closest hit so far. Equal t goes to the lowest primitive; t is finite in every hit.
+struct ClosestHit {
+  float limit;  // t of the best so far, at first the ray's tmax
+  float u = 0;
+  float v = 0;
+  uint32_t primitive = SOBB_MISS;
+
+  explicit ClosestHit(const sobb_ray& ray) : limit(std::min(ray.tmax, FLT_MAX)) {}
+
+  void offer(const TriangleHit& hit, float tmin, uint32_t index) {
+    if (hit.t >= tmin && (hit.t < limit || (hit.t == limit && index < primitive))) {
+      *this = ClosestHit(hit, index);
+    }
+  }
+
+  sobb_hit result() const {
+    if (primitive == SOBB_MISS) return missed(SOBB_MISS);
+    return {limit, u, v, primitive, 0, SOBB_MISS};
+  }
+
+  // The result of a ray that hit nothing (SOBB_MISS) or is not valid (SOBB_INVALID).
+  static sobb_hit missed(uint32_t why) {
+    return {INFINITY, 0, 0, why, SOBB_MISS, SOBB_MISS};
+  }
+
+ private:
+  ClosestHit(const TriangleHit& hit, uint32_t index)
+      : limit(hit.t), u(hit.u), v(hit.v), primitive(index) {}
+};
+
+}  // namespace sobb
