@@ -6,7 +6,7 @@ option(SOBB_WERROR "Treat warnings as errors" OFF)
 add_library(sobb_options INTERFACE)
 target_compile_features(sobb_options INTERFACE cxx_std_20)
 target_include_directories(sobb_options INTERFACE
-  ${PROJECT_SOURCE_DIR}/capi/include ${PROJECT_SOURCE_DIR}/lib)
+  ${PROJECT_SOURCE_DIR}/capi/include ${PROJECT_SOURCE_DIR}/capi/src ${PROJECT_SOURCE_DIR}/lib)
 target_compile_options(sobb_options INTERFACE
   -Wall -Wextra -Wpedantic
   # Results must not depend on what the compiler fuses.

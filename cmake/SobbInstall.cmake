@@ -1,1 +1,39 @@
 # SPDX-License-Identifier: Apache-2.0
+# Installation: libraries, headers, the CMake package `sobb` (components core and scene) and the
+# pkg-config modules sobb and sobb_scene.
+
+include(CMakePackageConfigHelpers)
+
+set(sobb_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sobb)
+set(sobb_libraries sobb)
+install(FILES capi/include/sobb/sobb.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sobb)
+if(SOBB_BUILD_SCENE)
+  list(APPEND sobb_libraries sobb_scene)
+  install(FILES capi/include/sobb/scene.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sobb)
+endif()
+
+install(TARGETS ${sobb_libraries} EXPORT sobbTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(EXPORT sobbTargets NAMESPACE sobb:: DESTINATION ${sobb_package_dir})
+
+configure_package_config_file(cmake/sobbConfig.cmake.in ${PROJECT_BINARY_DIR}/sobbConfig.cmake
+  INSTALL_DESTINATION ${sobb_package_dir} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may change the API, so only patch versions are compatible.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/sobbConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/sobbConfig.cmake ${PROJECT_BINARY_DIR}/sobbConfigVersion.cmake
+  DESTINATION ${sobb_package_dir})
+
+# The modules find their prefix from where they lie, so that an installation can be moved. What the
+# libraries need is private: shown by `pkg-config --static` only.
+file(RELATIVE_PATH sobb_prefix_from_pc
+  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+foreach(library IN LISTS sobb_libraries)
+  configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${library}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
+
+install(FILES LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

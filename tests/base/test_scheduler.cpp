@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scheduler: every index once, on TBB, on a caller's pool and serially; exceptions; arenas.
+#include "base/scheduler.h"
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#include <xmmintrin.h>
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace sobb {
+namespace {
+
+// A caller's pool: `count` indices dealt to three threads, the last index first.
+struct Pool {
+  std::atomic<int> loops{0};
+
+  static void parallel_for(void* user, uint64_t count, void (*body)(void*, uint64_t),
+                           void* context) {
+    ++static_cast<Pool*>(user)->loops;
+    std::vector<std::thread> threads;
+    for (uint64_t part = 0; part < 3; ++part) {
+      threads.emplace_back([=] {
+        for (uint64_t i = count; i-- > 0;) {
+          if (i % 3 == part) body(context, i);
+        }
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+  }
+
+  sobb_scheduler callback() { return {this, parallel_for}; }
+};
+
+// Runs `check` with every kind of scheduler.
+template <class Check>
+void with_each_scheduler(const Check& check) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  for (const uint32_t threads : {0, 1, 2, 3}) {
+    SCOPED_TRACE("threads " + std::to_string(threads));
+    check(Scheduler(threads, nullptr));
+  }
+  SCOPED_TRACE("callback");
+  Pool pool;
+  const sobb_scheduler callback = pool.callback();
+  check(Scheduler(0, &callback));
+  EXPECT_GT(pool.loops, 0);
+}
+
+TEST(Scheduler, RunsEveryIndexOnce) {
+  with_each_scheduler([](const Scheduler& scheduler) {
+    for (const uint64_t count : {0, 1, 2, 1000}) {
+      std::vector<std::atomic<int>> runs(count);
+      scheduler.for_each(count, [&](uint64_t i) { ++runs[i]; });
+      for (uint64_t i = 0; i < count; ++i) EXPECT_EQ(runs[i], 1) << i << " of " << count;
+    }
+  });
+}
+
+TEST(Scheduler, RangesCoverAndDependOnCountAndGrainAlone) {
+  using Range = std::pair<uint64_t, uint64_t>;
+  with_each_scheduler([](const Scheduler& scheduler) {
+    std::mutex mutex;
+    std::set<Range> ranges;
+    scheduler.for_ranges(10, 4, [&](uint64_t begin, uint64_t end) {
+      const std::scoped_lock lock(mutex);
+      ranges.emplace(begin, end);
+    });
+    EXPECT_EQ(ranges, (std::set<Range>{{0, 4}, {4, 8}, {8, 10}}));
+    scheduler.for_ranges(0, 4, [](uint64_t, uint64_t) { FAIL() << "a range of nothing"; });
+  });
+}
+
+TEST(Scheduler, RethrowsTheExceptionOfTheLowestIndexAfterAllHaveRun) {
+  with_each_scheduler([](const Scheduler& scheduler) {
+    std::atomic<int> runs{0};
+    try {
+      scheduler.for_each(100, [&](uint64_t i) {
+        ++runs;
+        if (i % 10 == 7) throw std::runtime_error(std::to_string(i));
+      });
+      FAIL() << "no exception came";
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "7");
+    }
+    EXPECT_EQ(runs, 100);
+  });
+}
+
+TEST(Scheduler, BodiesRunUnderTheDefaultControlWord) {
+  constexpr unsigned kFlushToZero = 0x8000;
+  with_each_scheduler([](const Scheduler& scheduler) {
+    const unsigned found = _mm_getcsr();
+    _mm_setcsr(found | kFlushToZero);
+    std::atomic<int> flushing{0};
+    scheduler.for_each(50, [&](uint64_t) {
+      if ((_mm_getcsr() & kFlushToZero) != 0) ++flushing;
+    });
+    EXPECT_EQ(flushing, 0);
+    EXPECT_NE(_mm_getcsr() & kFlushToZero, 0u);
+    _mm_setcsr(found);
+  });
+}
+
+TEST(Scheduler, LoopsMayNest) {
+  with_each_scheduler([](const Scheduler& scheduler) {
+    std::atomic<int> runs{0};
+    scheduler.for_each(5, [&](uint64_t) { scheduler.for_each(7, [&](uint64_t) { ++runs; }); });
+    EXPECT_EQ(runs, 35);
+  });
+}
+
+TEST(Scheduler, SerialRunsInOrderOnTheCallingThread) {
+  std::vector<uint64_t> order;
+  Scheduler(1, nullptr).for_each(5, [&](uint64_t i) { order.push_back(i); });
+  EXPECT_EQ(order, (std::vector<uint64_t>{0, 1, 2, 3, 4}));
+}
+
+TEST(Scheduler, ArenaHasTheSizeAskedFor) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  const auto arena_size = [](const Scheduler& scheduler) {
+    int size = 0;
+    scheduler.within_arena([&] { size = tbb::this_task_arena::max_concurrency(); });
+    return size;
+  };
+  EXPECT_EQ(arena_size(Scheduler(1, nullptr)), 1);
+  EXPECT_EQ(arena_size(Scheduler(3, nullptr)), 3);
+  Pool pool;
+  const sobb_scheduler callback = pool.callback();
+  EXPECT_EQ(arena_size(Scheduler(3, &callback)), 1);
+}
+
+TEST(Scheduler, UsesNoMoreThreadsAtOnceThanAsked) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  std::atomic<int> running{0};
+  std::atomic<int> most{0};
+  Scheduler(2, nullptr).for_each(200, [&](uint64_t) {
+    const int now = ++running;
+    int seen = most;
+    while (now > seen && !most.compare_exchange_weak(seen, now)) {
+    }
+    std::this_thread::yield();
+    --running;
+  });
+  EXPECT_GE(most, 1);
+  EXPECT_LE(most, 2);
+}
+
+}  // namespace
+}  // namespace sobb
