@@ -17,7 +17,7 @@ class Image {
   Image() = default;
   // Private zeroed bytes, aligned to 64 or, where large, to huge pages.
   static Image allocate(std::shared_ptr<Memory> memory, uint64_t size);
-  // A private copy of a file. Errors: FILE_OPEN, FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT.
+  // A private copy of a regular file. Errors: FILE_OPEN, FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT.
   static Image read(std::shared_ptr<Memory> memory, const char* path);
   // The file where it lies, read-only. Errors: FILE_OPEN, FILE_READ.
   static Image map(const char* path);
@@ -28,8 +28,11 @@ class Image {
 
   std::span<std::byte> bytes() { return {data_, size_}; }  // not of a mapping
   std::span<const std::byte> bytes() const { return {data_, size_}; }
+  Memory& memory() { return *memory_; }  // not of a mapping
 
  private:
+  Image(std::shared_ptr<Memory> memory, uint64_t size);  // bytes as they come
+
   std::byte* data_ = nullptr;
   uint64_t size_ = 0;
   std::shared_ptr<Memory> memory_;  // null for a mapping

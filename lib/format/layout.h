@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Version 1 of the file as structs: docs/format.md in code. Little-endian, fixed-width, relocatable.
-// The nodes and triangle blocks of the file are those that the kernels trace.
+// Version 1 of the file as structs: docs/format.md in code. Little-endian, fixed-width,
+// relocatable. The nodes and triangle blocks of the file are those that the kernels trace.
 #pragma once
 
 #include <bit>
@@ -18,12 +18,14 @@ inline constexpr uint64_t kSectionAlignment = 64;
 inline constexpr uint64_t kChecksumChunk = uint64_t{1} << 20;
 inline constexpr uint32_t kMaxDirections = 32;  // five bits an index
 inline constexpr uint32_t kMaxDepth = 96;       // of nodes; bounds the traversal stack
+inline constexpr uint32_t kMaxSections = 64;
 inline constexpr uint32_t kNoPrimitive = 0xFFFFFFFF;
+inline constexpr uint64_t kMaxTriangles = 0xFFFFFFFD;  // 2^32 - 3: two values are no primitive
 
 struct FileHeader {
   uint8_t magic[8];
   uint32_t version;
-  uint32_t header_size;      // sizeof(FileHeader); the section table follows
+  uint32_t header_size;  // sizeof(FileHeader); the section table follows
   uint64_t total_size;
   uint64_t header_checksum;  // XXH3-64 of header and section table, this field zero
   uint32_t must_understand;  // features without which the file cannot be traced; none defined
@@ -32,12 +34,12 @@ struct FileHeader {
   uint32_t width;            // W, children a node: 4 or 8
   uint32_t direction_count;  // K: 3 for the AABB, else 16, 24 or 32
   uint32_t section_count;
-  uint32_t depth;            // nodes on the longest way down, the root counted
-  uint32_t reserved0;        // zero
-  float centre[3];           // c: slabs are measured from it
-  float radius;              // R: no vertex is further from c
-  uint64_t triangle_count;   // primitives are below it
-  uint64_t reserved1[3];     // zero
+  uint32_t depth;           // nodes on the longest way down, the root counted
+  uint32_t reserved0;       // zero
+  float centre[3];          // c: slabs are measured from it
+  float radius;             // R: no vertex is further from c
+  uint64_t triangle_count;  // primitives are below it
+  uint64_t reserved1[5];    // zero
 };
 static_assert(sizeof(FileHeader) == 128);
 
@@ -71,12 +73,14 @@ struct alignas(64) Node {
 };
 static_assert(sizeof(Node<4>) == 128 && sizeof(Node<8>) == 256);
 
+constexpr uint64_t node_size(uint32_t width) { return uint64_t{32} * width; }
+
 // Bits of Node::meta.
-inline constexpr uint16_t kLeafBit = 1u << 15;        // the child is a leaf
-inline constexpr uint16_t kTriangleMask = 0x3F;       // a leaf's triangles, 1 to 63
-inline constexpr uint32_t kChildCountShift = 8;       // child 0 only: four bits, 1 to W
+inline constexpr uint16_t kLeafBit = 1u << 15;   // the child is a leaf
+inline constexpr uint16_t kTriangleMask = 0x3F;  // a leaf's triangles, 1 to 63
+inline constexpr uint32_t kChildCountShift = 8;  // child 0 only: four bits, 1 to W
 inline constexpr uint16_t kChildCountMask = 0xF << kChildCountShift;
-inline constexpr uint16_t kSharedBit = 1u << 12;      // child 0 only: every child has one basis
+inline constexpr uint16_t kSharedBit = 1u << 12;  // child 0 only: every child has one basis
 
 template <int W>
 constexpr uint32_t child_count(const Node<W>& node) {
@@ -109,7 +113,7 @@ struct BuildRecord {
   uint64_t source_hash;      // XXH3-64 of the vertex positions and indices as used
   float bounds_min[3];       // of the vertices that triangles use
   float bounds_max[3];
-  uint32_t reserved[2];      // zero
+  uint32_t reserved[2];  // zero
 };
 static_assert(sizeof(BuildRecord) == 64);
 

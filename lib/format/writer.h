@@ -36,7 +36,8 @@ Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts
 // Computes the checksums, in parallel; the image is then a valid file.
 void seal_image(Image& image, const Scheduler& scheduler);
 
-// Writes bytes to a temporary name beside `path`, syncs, renames, syncs the folder.
+// Writes bytes to a temporary name beside `path`, syncs, renames, syncs the folder. Where `path` is
+// a link, the file that it leads to is replaced. What exists and is no regular file is left alone.
 // Error FILE_WRITE with path and reason; the old file is then as it was, no temporary left.
 void save_atomically(std::span<const std::byte> bytes, const char* path);
 

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two checksums of a file; docs/format.md defines them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+#include "base/scheduler.h"
+#include "format/layout.h"
+
+namespace sobb {
+
+// XXH3-64 of header and section table, the header's own checksum taken as zero. `front` is those
+// bytes: at most kMaxSections sections.
+uint64_t header_checksum(std::span<const std::byte> front);
+
+// XXH3-64 over the XXH3-64 of each MiB, so that a large section is checked in parallel. `scratch`
+// holds eight bytes a MiB meanwhile.
+uint64_t section_checksum(std::span<const std::byte> section, const Scheduler& scheduler,
+                          std::pmr::memory_resource& scratch);
+
+}  // namespace sobb
