@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The vector code of the build: k-DOPs of points, and the search for the basis of least area.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "bounds/basis_table.h"
+#include "bounds/direction_table.h"
+#include "bounds/kdop.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// A point relative to the scene's centre, rounded once.
+struct RelativePoint {
+  float x, y, z;
+};
+
+// G[i][j] = sum over volumes c of weight_c d_i d_j, d the widths of c's k-DOP. The weighted sum of
+// the areas that the volumes have in the basis (i, j, l) is then 2 (G_ij + G_jl + G_li) / |det|
+// (the slab form, summed): one volume's area or eight's cost the same to compare.
+struct alignas(64) Gram {
+  float sum[kMaxDirections][kMaxDirections];
+};
+
+struct BasisChoice {
+  uint16_t basis = kAxesBasis;  // its three directions in rising order
+  float area = std::numeric_limits<float>::infinity();
+};
+
+// Half a Gram matrix's sum of areas over |det|, doubled: what choose() minimises.
+float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis);
+
+// One set a sobb_isa; all return the same bits.
+struct BoundsKernels {
+  // The k-DOP of points: lower = min n . p - e, upper = max n . p + e, where
+  // e = 6 u (|n_x| max|p_x| + |n_y| max|p_y| + |n_z| max|p_z|), u = 2^-24, covers the rounding of
+  // p - c (u), of the dot product (3 u) and of the widening itself (2 u).
+  void (*fit)(const DirectionTable& directions, const RelativePoint* points, uint64_t count,
+              Kdop& kdop);
+  // Adds one volume to a Gram matrix. Widths are scaled (by one over the scene's radius), so that
+  // no product overflows.
+  void (*add_to_gram)(const Kdop& kdop, float scale, float weight, Gram& gram);
+  // The basis of least area by a strategy; equal areas go to the lowest indices.
+  BasisChoice (*choose)(const BasisTable& table, const Gram& gram, sobb_strategy strategy);
+};
+
+const BoundsKernels& bounds_kernels(sobb_isa isa);
+
+}  // namespace sobb
