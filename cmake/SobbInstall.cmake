@@ -27,7 +27,8 @@ install(FILES ${PROJECT_BINARY_DIR}/sobbConfig.cmake ${PROJECT_BINARY_DIR}/sobbC
   DESTINATION ${sobb_package_dir})
 
 # The modules find their prefix from where they lie, so that an installation can be moved. What the
-# libraries need is private: shown by `pkg-config --static` only.
+# libraries need stands in Libs.private, for `pkg-config --static` only: Requires.private would ask
+# for the development files of every dependency even where the libraries are shared.
 file(RELATIVE_PATH sobb_prefix_from_pc
   ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 foreach(library IN LISTS sobb_libraries)

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: Apache-2.0
+# Tests of the package: the consumer project against installations below the build folder, found
+# by find_package and by pkg-config: of this build, and of one with static libraries.
+
+set(consumer_dir ${CMAKE_CURRENT_BINARY_DIR}/consumer)
+
+# Tests the installation in PREFIX, which the test consumer.NAME.install makes. Further arguments
+# go to pkg-config.
+function(sobb_add_consumer_tests name prefix)
+  add_test(NAME consumer.${name}.find_package COMMAND ${CMAKE_CTEST_COMMAND}
+    --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_dir}/${name}
+    --build-generator ${CMAKE_GENERATOR}
+    --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}
+    --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
+  add_test(NAME consumer.${name}.pkg_config COMMAND
+    ${CMAKE_CURRENT_SOURCE_DIR}/consumer/pkg_config.sh ${CMAKE_C_COMPILER}
+    ${prefix}/${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/${name}_pkg_config ${ARGN})
+  set_tests_properties(consumer.${name}.install PROPERTIES
+    FIXTURES_SETUP consumer_${name} TIMEOUT 900)
+  set_tests_properties(consumer.${name}.find_package consumer.${name}.pkg_config PROPERTIES
+    FIXTURES_REQUIRED consumer_${name})
+endfunction()
+
+if(BUILD_SHARED_LIBS)
+  add_test(NAME consumer.shared.install COMMAND ${CMAKE_COMMAND}
+    --install ${PROJECT_BINARY_DIR} --prefix ${consumer_dir}/shared_prefix)
+  sobb_add_consumer_tests(shared ${consumer_dir}/shared_prefix)
+endif()
+
+# Compiled as this build is, so that a compiler cache has the objects.
+add_test(NAME consumer.static.install COMMAND ${CMAKE_CTEST_COMMAND}
+  --build-and-test ${PROJECT_SOURCE_DIR} ${consumer_dir}/static_build
+  --build-generator ${CMAKE_GENERATOR} --build-target install
+  --build-options -DBUILD_SHARED_LIBS=OFF -DCMAKE_INSTALL_PREFIX=${consumer_dir}/static_prefix
+  -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DSOBB_WERROR=${SOBB_WERROR}
+  -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+  -DSOBB_BUILD_TESTS=OFF -DSOBB_BUILD_BENCH=OFF -DSOBB_BUILD_EXAMPLES=OFF)
+sobb_add_consumer_tests(static ${consumer_dir}/static_prefix --static)
