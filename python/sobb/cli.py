@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: build, info, validate, render, demo.
+
+Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage.
+"""
+
+import argparse
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import sobb
+from sobb.describe import describe_hierarchy, describe_scene, print_facts
+from sobb.hierarchy import QUALITIES, STRATEGIES, VOLUMES, Hierarchy, build
+from sobb.progress import bar
+from sobb.scene import Scene
+from sobb.view import View, default_view, read_views
+
+_MAX_SIDE = 16384
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs one command; returns its exit code (wrong usage exits with 2 by itself)."""
+    options = _parser().parse_args(arguments)
+    try:
+        options.command(options)
+        sys.stdout.flush()
+        return 0
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads on
+        return 1
+    except KeyboardInterrupt:
+        return _fail("interrupted")
+    except MemoryError:
+        return _fail("out of memory")
+    except (sobb.Error, OSError, ValueError) as error:
+        return _fail(str(error))
+
+
+def _fail(message: str) -> int:
+    print(f"sobb: {message}", file=sys.stderr)
+    return 1
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="sobb", description=sobb.__doc__.split("\n")[0])
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    scene_help = "a .gltf, .glb, .obj, .ply, .stl or .off file, or builtin:NAME[:TRIANGLES][@DEG]"
+
+    command = _add(commands, "build", _build, "build a hierarchy over a scene and save it")
+    command.add_argument("scene", metavar="SCENE", help=scene_help)
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="the .sobb to write")
+    command.add_argument("--volume", choices=VOLUMES, default="sobb")
+    command.add_argument("--k", type=int, choices=(32, 48, 64), default=64)
+    command.add_argument("--quality", choices=QUALITIES, default="medium")
+    command.add_argument("--strategy", choices=STRATEGIES, default="k2")
+    command.add_argument("--width", type=int, choices=(4, 8), default=8)
+    command.add_argument("--threads", type=_count, default=0, help="at most; 0 for all")
+
+    command = _add(commands, "info", _info, "say what a scene or a .sobb file is")
+    command.add_argument("source", metavar="SCENE_OR_FILE", help=f"a .sobb file; or {scene_help}")
+    command.add_argument("--json", action="store_true", help="for machines, all that is known")
+
+    command = _add(commands, "validate", _validate, "prove that a .sobb file is safe to trace")
+    command.add_argument("file", metavar="FILE")
+
+    command = _add(commands, "render", _render, "make a picture of a scene or a .sobb file")
+    command.add_argument("source", metavar="SCENE_OR_FILE", help=f"a .sobb file; or {scene_help}")
+    command.add_argument("-o", "--output", metavar="PNG", required=True, help="the PNG to write")
+    command.add_argument("--view", type=_count, default=0, metavar="N", help="which view; 0")
+    command.add_argument("--size", type=_size, default=(960, 540), metavar="WxH", help="960x540")
+    command.add_argument(
+        "--heat", action="store_true", help="show the volumes and triangles tested for each ray"
+    )
+    command.add_argument(
+        "--cameras",
+        metavar="FILE",
+        help="a JSON file of views by the source's name; else the scene's own views. "
+        "A .sobb has none: a default is made from its bounds",
+    )
+
+    command = _add(commands, "demo", _demo, "the whole way, against AABBs and Embree")
+    command.add_argument("--scene", default="builtin:hairball", help=scene_help)
+    command.add_argument("--out", default="out/demo", metavar="DIR", help="where the files go")
+    command.add_argument("--cameras", metavar="FILE", help="a JSON file of views")
+    return parser
+
+
+def _add(commands, name: str, run: Callable[[argparse.Namespace], None], text: str):
+    command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
+    command.set_defaults(command=run)
+    return command
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if not 0 <= value < 1 << 32:
+        raise argparse.ArgumentTypeError(f"{text} is out of range")
+    return value
+
+
+def _size(text: str) -> tuple[int, int]:
+    try:
+        width, height = (int(side) for side in text.split("x"))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is not WIDTHxHEIGHT") from None
+    if not (1 <= width <= _MAX_SIDE and 1 <= height <= _MAX_SIDE):
+        raise argparse.ArgumentTypeError(f"{text}: sides are from 1 to {_MAX_SIDE}")
+    return width, height
+
+
+def _is_file(source: str) -> bool:
+    return source.lower().endswith(".sobb")
+
+
+def _build(options: argparse.Namespace) -> None:
+    with Scene.load(options.scene) as scene, bar("build") as progress:
+        hierarchy = build(
+            scene,
+            volume=options.volume,
+            k=options.k,
+            quality=options.quality,
+            strategy=options.strategy,
+            width=options.width,
+            threads=options.threads,
+            progress=progress,
+        )
+    hierarchy.save(options.output)
+    info = hierarchy.info
+    print(
+        f"{options.output}: {info.triangles} triangles, {info.nodes} nodes, {info.bytes} bytes, "
+        f"built in {info.total_ms:.0f} ms"
+    )
+
+
+def _info(options: argparse.Namespace) -> None:
+    if _is_file(options.source):
+        facts = describe_hierarchy(Hierarchy.open(options.source))
+    else:
+        facts = describe_scene(Scene.load(options.source))
+    print_facts(facts, options.json)
+
+
+def _validate(options: argparse.Namespace) -> None:
+    info = Hierarchy.open(options.file).info
+    print(f"{options.file}: valid, version {info.format_version}, {info.triangles} triangles")
+
+
+def _render(options: argparse.Namespace) -> None:
+    from PIL import Image  # here and below: building and asking need no pictures
+
+    from sobb import heat, image, render
+
+    hierarchy, views = _hierarchy_and_views(options.source, options.cameras)
+    if options.view >= len(views):
+        raise ValueError(f"{options.source}: no view {options.view}, there are {len(views)}")
+    view = views[options.view]
+    with bar("render") as progress:
+        if options.heat:
+            work = render.work(hierarchy, view, *options.size)
+            picture = heat.picture(work, heat.shared_scale(work), hierarchy.info.volume)
+        else:
+            picture = Image.fromarray(render.shaded(hierarchy, view, *options.size, progress))
+    image.write_png(options.output, picture)
+
+
+def _hierarchy_and_views(source: str, cameras: str | None) -> tuple[Hierarchy, list[View]]:
+    if _is_file(source):
+        hierarchy = Hierarchy.open(source)
+        if cameras is not None:
+            return hierarchy, read_views(cameras, Path(source).stem)
+        info = hierarchy.info
+        return hierarchy, [default_view(info.bounds_min, info.bounds_max)]
+    with Scene.load(source, views=cameras) as scene, bar("build") as progress:
+        return build(scene, progress=progress), scene.views
+
+
+def _demo(options: argparse.Namespace) -> None:
+    from sobb import demo
+
+    demo.run(options.scene, Path(options.out), options.cameras)

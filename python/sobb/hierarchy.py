@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hierarchies: build, save, open, trace."""
+
+import os
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from ctypes import byref, c_uint64, c_void_p
+from types import SimpleNamespace
+from typing import Any, Literal, overload
+
+import numpy as np
+
+from sobb import library, structs
+from sobb.dtypes import count_dtype, hit_dtype, ray_dtype
+from sobb.library import Handle, check, isa_number, name_of, number_of, unsigned
+from sobb.triangles import TriangleArgument
+
+VOLUMES = {"aabb": 1, "sobb": 2}
+QUALITIES = {"low": 1, "medium": 2, "high": 3}
+STRATEGIES = {"k": 1, "k2": 2, "k3": 3}
+
+_OPEN_MAP = 1
+_TRACE_COHERENT = 1
+
+
+class Hierarchy:
+    """An immutable hierarchy, made by build(), Hierarchy.open() or Hierarchy.from_bytes().
+
+    Any number of threads may use one at once. A context manager that closes it.
+    """
+
+    def __init__(self, handle: Handle):
+        self._handle: Handle | None = handle
+
+    @classmethod
+    def open(
+        cls,
+        path: str | os.PathLike[str],
+        map: bool = False,
+        threads: int = 0,
+        memory_limit: int = 0,
+    ) -> "Hierarchy":
+        """Opens a .sobb file and proves it safe to trace.
+
+        map: trace the file where it lies, instead of a private copy. Nobody may then change or
+            truncate it while the hierarchy lives.
+        threads: at most this many; 0 for all. memory_limit: in bytes; 0 for none.
+        """
+        options = structs.OpenOptions(
+            flags=_OPEN_MAP if map else 0,
+            threads=unsigned("threads", threads),
+            memory_limit=unsigned("memory_limit", memory_limit, 64),
+        )
+        out = c_void_p()
+        check(library.core().sobb_open(library.path_bytes(path), byref(options), byref(out)))
+        return cls(Handle(out, library.core().sobb_release))
+
+    @classmethod
+    def from_bytes(cls, data: Any, threads: int = 0, memory_limit: int = 0) -> "Hierarchy":
+        """The same from the bytes of a file: anything with the buffer protocol; copied."""
+        content = np.frombuffer(data, np.uint8) if len(data) else np.empty(0, np.uint8)
+        options = structs.OpenOptions(
+            threads=unsigned("threads", threads),
+            memory_limit=unsigned("memory_limit", memory_limit, 64),
+        )
+        out = c_void_p()
+        check(
+            library.core().sobb_open_memory(
+                content.ctypes.data, content.size, byref(options), byref(out)
+            )
+        )
+        return cls(Handle(out, library.core().sobb_release))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the file, atomically: whatever happens, `path` is the old file or the new."""
+        check(library.core().sobb_save(self.handle, library.path_bytes(path)))
+
+    @property
+    def bytes(self) -> memoryview:
+        """The bytes that save() writes, where they lie; the view keeps the hierarchy alive."""
+        handle, data, size = self.handle, c_void_p(), c_uint64()
+        check(library.core().sobb_bytes(handle, byref(data), byref(size)))
+        return memoryview(library.borrow(handle, data.value or 0, "|u1", (size.value,), None))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """The members of sobb_info; volume, quality and strategy by name. O(nodes)."""
+        struct = structs.HierarchyInfo()
+        check(library.core().sobb_get_info(self.handle, byref(struct)))
+        info = structs.to_namespace(struct)
+        info.volume = name_of(VOLUMES, info.volume)
+        info.quality = name_of(QUALITIES, info.quality)
+        info.strategy = name_of(STRATEGIES, info.strategy)
+        return info
+
+    @overload
+    def intersect(
+        self,
+        rays: np.ndarray,
+        coherent: bool = False,
+        threads: int = 0,
+        counts: Literal[False] = False,
+        isa: str = "best",
+    ) -> np.ndarray: ...
+
+    @overload
+    def intersect(
+        self,
+        rays: np.ndarray,
+        coherent: bool = False,
+        threads: int = 0,
+        *,
+        counts: Literal[True],
+        isa: str = "best",
+    ) -> tuple[np.ndarray, np.ndarray]: ...
+
+    def intersect(self, rays, coherent=False, threads=0, counts=False, isa="best"):
+        """Closest hits.
+
+        rays: ray_dtype, any shape; not copied if contiguous. coherent: neighbours in the array are
+        alike, trace them as packets. threads: at most this many; 0 for all. isa: "best", "sse4" or
+        "avx2". Neither changes the result. counts: return the work done for each ray as well.
+
+        Returns hits, hit_dtype of the shape of `rays`; with `counts`, (hits, counts), the second
+        of count_dtype. A ray that is not valid gets primitive INVALID.
+        """
+        rays = contiguous_rays(rays)
+        hits = np.empty(rays.shape, hit_dtype)
+        work = np.empty(rays.shape, count_dtype) if counts else None
+        self._trace(library.core().sobb_intersect, rays, hits, work, coherent, threads, isa)
+        return hits if work is None else (hits, work)
+
+    def occluded(
+        self, rays: np.ndarray, coherent: bool = False, threads: int = 0, isa: str = "best"
+    ) -> np.ndarray:
+        """Whether each ray meets a triangle: uint8 of the shape of `rays`, 0 free, 1 occluded,
+        OCCLUDED_INVALID for a ray that is not valid. Arguments as in intersect()."""
+        rays = contiguous_rays(rays)
+        occluded = np.empty(rays.shape, np.uint8)
+        self._trace(library.core().sobb_occluded, rays, occluded, None, coherent, threads, isa)
+        return occluded
+
+    def _trace(self, function, rays, out, counts, coherent, threads, isa) -> None:
+        options = structs.TraceOptions(
+            flags=_TRACE_COHERENT if coherent else 0,
+            threads=unsigned("threads", threads),
+            isa=isa_number(isa),
+            counts=None if counts is None else counts.ctypes.data,
+        )
+        check(
+            function(self.handle, rays.ctypes.data, rays.size, out.ctypes.data, byref(options))
+        )
+
+    @property
+    def handle(self) -> Handle:
+        """The hierarchy's memory: what keeps it alive."""
+        if self._handle is None:
+            raise ValueError("the hierarchy is closed")
+        return self._handle
+
+    def close(self) -> None:
+        """Lets go of the hierarchy. It is freed when the views of its bytes are gone."""
+        self._handle = None
+
+    def __enter__(self) -> "Hierarchy":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<sobb.Hierarchy, closed>"
+        return f"<sobb.Hierarchy, {len(self.bytes)} bytes>"
+
+
+def build(
+    triangles: Any,
+    faces: Any = None,
+    *,
+    volume: str = "sobb",
+    k: int = 64,
+    quality: str = "medium",
+    strategy: str = "k2",
+    width: int = 8,
+    threads: int = 0,
+    isa: str = "best",
+    memory_limit: int = 0,
+    progress: Callable[[float], None] | None = None,
+) -> Hierarchy:
+    """Builds a hierarchy. The same input and options give the same bytes.
+
+    triangles: a Scene; or vertices, float32 (n, 3), with faces, uint32 (m, 3).
+    volume: "sobb" or "aabb". k: planes of the k-DOP, 32, 48 or 64. quality: "low", "medium",
+    "high". strategy: "k", "k2", "k3". width: children a node, 4 or 8. threads: at most this many;
+    0 for all. isa: changes only speed. memory_limit: bytes that the build may hold; 0 for none.
+    progress: called now and then, on another thread, with the fraction done, 0 to 1; what it
+    raises cancels the build and comes out of here. So does Ctrl-C.
+    """
+    argument = TriangleArgument(triangles, faces)
+    stop = threading.Event()
+    raised: list[BaseException] = []
+
+    @structs.Progress
+    def report(_user: int, fraction: float) -> int:
+        try:
+            if progress is not None:
+                progress(fraction)
+        except BaseException as error:  # nothing may pass through the C library
+            raised.append(error)
+            return 1
+        return int(stop.is_set())
+
+    options = structs.BuildOptions(
+        volume=number_of("volume", VOLUMES, volume),
+        k=unsigned("k", k),
+        quality=number_of("quality", QUALITIES, quality),
+        strategy=number_of("strategy", STRATEGIES, strategy),
+        width=unsigned("width", width),
+        threads=unsigned("threads", threads),
+        isa=isa_number(isa),
+        memory_limit=unsigned("memory_limit", memory_limit, 64),
+        progress=report,
+    )
+
+    def call() -> Hierarchy:
+        out = c_void_p()
+        check(library.core().sobb_build(byref(argument.struct), byref(options), byref(out)))
+        return Hierarchy(Handle(out, library.core().sobb_release))
+
+    # Python hears of Ctrl-C only between its own instructions, so this thread must not be in C.
+    with ThreadPoolExecutor(1) as worker:
+        try:
+            return worker.submit(call).result()
+        except BaseException as error:
+            stop.set()
+            raise (raised[0] if raised else error) from None
+
+
+def contiguous_rays(rays: Any) -> np.ndarray:
+    """`rays`, copied only if they do not lie one after the other."""
+    rays = np.asarray(rays)
+    if rays.dtype != ray_dtype:
+        raise TypeError(f"rays are {rays.dtype}, not sobb.ray_dtype")
+    return rays if rays.flags.c_contiguous else np.ascontiguousarray(rays)

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures: from linear light to a PNG file."""
+
+import os
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+
+def to_srgb(linear: np.ndarray) -> np.ndarray:
+    """Linear light, clipped to 0..1, as sRGB bytes: uint8 of the same shape."""
+    light = np.clip(linear, 0, 1)
+    curve = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+    return (curve * 255 + 0.5).astype(np.uint8)
+
+
+def write_png(path: str | os.PathLike[str], picture: Image.Image) -> None:
+    """Writes a picture atomically: whatever happens, `path` is the old file or the new."""
+    path = Path(path)
+    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            picture.save(file, "png")
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)  # mkstemp keeps others from reading it
+        os.replace(temporary, path)
+    except BaseException:
+        os.unlink(temporary)
+        raise

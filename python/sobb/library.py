@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finding and loading libsobb and libsobb_scene, and what every call into them shares.
+
+A library is looked for in the folder that the environment's SOBB_LIBRARY_PATH names, and nowhere
+else if that is set; then in build/release/lib of the checkout that this package lies in; then
+where the system looks. Loading happens at the first call that needs it.
+"""
+
+import ctypes
+import os
+from collections.abc import Callable, Mapping
+from ctypes import POINTER, c_char_p, c_int, c_uint32, c_uint64, c_void_p
+from functools import cache
+from operator import index
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sobb import structs
+from sobb.error import Error
+
+_ABI_VERSION = 0  # SOBB_ABI_VERSION, the number in the soname
+_CHECKOUT = Path(__file__).resolve().parents[2]
+
+_ISAS = {"best": 0, "sse4": 1, "avx2": 2}
+
+_CORE_SIGNATURES = {
+    "sobb_last_error": (c_char_p, []),
+    "sobb_version": (c_uint32, []),
+    "sobb_resolve_isa": (c_int, [c_int, POINTER(c_int)]),
+    "sobb_build": (
+        c_int,
+        [POINTER(structs.Triangles), POINTER(structs.BuildOptions), POINTER(c_void_p)],
+    ),
+    "sobb_release": (None, [c_void_p]),
+    "sobb_save": (c_int, [c_void_p, c_char_p]),
+    "sobb_open": (c_int, [c_char_p, POINTER(structs.OpenOptions), POINTER(c_void_p)]),
+    "sobb_open_memory": (
+        c_int,
+        [c_void_p, c_uint64, POINTER(structs.OpenOptions), POINTER(c_void_p)],
+    ),
+    "sobb_bytes": (c_int, [c_void_p, POINTER(c_void_p), POINTER(c_uint64)]),
+    "sobb_get_info": (c_int, [c_void_p, POINTER(structs.HierarchyInfo)]),
+    "sobb_intersect": (
+        c_int,
+        [c_void_p, c_void_p, c_uint64, c_void_p, POINTER(structs.TraceOptions)],
+    ),
+    "sobb_occluded": (
+        c_int,
+        [c_void_p, c_void_p, c_uint64, c_void_p, POINTER(structs.TraceOptions)],
+    ),
+    "sobb_brute_force": (
+        c_int,
+        [
+            POINTER(structs.Triangles),
+            c_void_p,
+            c_uint64,
+            c_void_p,
+            POINTER(structs.TraceOptions),
+        ],
+    ),
+}
+
+_SCENE_SIGNATURES = {
+    "sobb_scene_load": (c_int, [c_char_p, POINTER(structs.SceneOptions), POINTER(c_void_p)]),
+    "sobb_scene_release": (None, [c_void_p]),
+    "sobb_scene_get_info": (c_int, [c_void_p, POINTER(structs.SceneInfo)]),
+    "sobb_scene_triangles": (c_int, [c_void_p, POINTER(structs.Triangles)]),
+    "sobb_scene_mesh": (c_int, [c_void_p, c_uint64, POINTER(structs.SceneMesh)]),
+    "sobb_scene_view": (c_int, [c_void_p, c_uint64, POINTER(structs.SceneView)]),
+}
+
+
+@cache
+def core() -> ctypes.CDLL:
+    """libsobb: build, file, trace."""
+    return _load("sobb", _CORE_SIGNATURES)
+
+
+@cache
+def scene() -> ctypes.CDLL:
+    """libsobb_scene: the importers."""
+    core()  # first, so that the importers find the same one
+    return _load("sobb_scene", _SCENE_SIGNATURES)
+
+
+def _load(name: str, signatures: Mapping[str, tuple[Any, list[Any]]]) -> ctypes.CDLL:
+    file = f"lib{name}.so.{_ABI_VERSION}"
+    folder = os.environ.get("SOBB_LIBRARY_PATH")
+    built = _CHECKOUT / "build" / "release" / "lib" / file
+    if folder:
+        path = os.path.join(folder, file)
+    else:
+        path = str(built) if built.exists() else file
+    try:
+        library = ctypes.CDLL(path)
+    except OSError as error:
+        raise OSError(
+            f"cannot load {file}: {error}. Build it (scripts/setup.sh) or install it, or name its "
+            "folder in SOBB_LIBRARY_PATH."
+        ) from None
+    for function, (result, arguments) in signatures.items():
+        getattr(library, function).restype = result
+        getattr(library, function).argtypes = arguments
+    return library
+
+
+def check(status: int) -> None:
+    """Raises Error, with the library's message, where a call on this thread failed."""
+    if status != 0:
+        raise Error(status, core().sobb_last_error().decode("utf-8", "replace"))
+
+
+def version() -> str:
+    """The version of the library that is loaded, as "major.minor.patch"."""
+    number = core().sobb_version()
+    return f"{number >> 16}.{number >> 8 & 255}.{number & 255}"
+
+
+def resolve_isa(isa: str = "best") -> str:
+    """The instruction set, "sse4" or "avx2", that calls with this `isa` use on this machine.
+
+    Raises Error (Status.UNSUPPORTED_CPU) where it lacks the one asked for.
+    """
+    out = c_int()
+    check(core().sobb_resolve_isa(isa_number(isa), ctypes.byref(out)))
+    return name_of(_ISAS, out.value)
+
+
+class Handle:
+    """One reference to an object of the library, dropped with the last Python reference to this."""
+
+    def __init__(self, pointer: c_void_p, release: Callable[[c_void_p], None]):
+        self._as_parameter_ = pointer
+        self._release = release
+
+    def __del__(self) -> None:
+        self._release(self._as_parameter_)
+
+    def __reduce__(self):
+        raise TypeError("handles of the library cannot be pickled or deep-copied; save a file")
+
+
+class _Memory:
+    """Memory of the library as NumPy and memoryview see it; keeps its owner alive."""
+
+    def __init__(self, owner: Handle, interface: dict[str, Any]):
+        self.owner = owner
+        self.__array_interface__ = interface
+
+
+def borrow(
+    owner: Handle, address: int, dtype: str, shape: tuple[int, ...], strides: tuple[int, ...] | None
+) -> np.ndarray:
+    """A read-only array over memory that `owner` owns; nothing is copied."""
+    interface = {
+        "version": 3,
+        "typestr": dtype,
+        "shape": shape,
+        "strides": strides,
+        "data": (address, True),
+    }
+    return np.asarray(_Memory(owner, interface))
+
+
+def path_bytes(path: str | os.PathLike[str]) -> bytes:
+    """A path as the C interface takes it."""
+    encoded = os.fsencode(path)
+    if b"\0" in encoded:
+        raise ValueError(f"a path with a null byte: {path!r}")
+    return encoded
+
+
+def unsigned(name: str, value: int, bits: int = 32) -> int:
+    """`value`, proved to fit an unsigned integer; ctypes would wrap it silently."""
+    number = index(value)
+    if not 0 <= number < 1 << bits:
+        raise ValueError(f"{name} is {number}: not from 0 to 2^{bits} - 1")
+    return number
+
+
+def number_of(what: str, names: Mapping[str, int], name: str) -> int:
+    """The value of an enumeration by its name."""
+    if name not in names:
+        raise ValueError(f"{what} is {name!r}: not one of {', '.join(names)}")
+    return names[name]
+
+
+def name_of(names: Mapping[str, int], number: int) -> str:
+    """The name of an enumeration's value."""
+    return next((name for name, value in names.items() if value == number), str(number))
+
+
+def isa_number(isa: str) -> int:
+    """sobb_isa of "best", "sse4" or "avx2"."""
+    return number_of("isa", _ISAS, isa)

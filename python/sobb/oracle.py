@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is right: closest hits by trying every triangle."""
+
+from ctypes import byref
+from typing import Any
+
+import numpy as np
+
+from sobb import library, structs
+from sobb.dtypes import hit_dtype
+from sobb.hierarchy import contiguous_rays
+from sobb.triangles import TriangleArgument
+
+
+def brute_force(
+    triangles: Any, rays: np.ndarray, faces: Any = None, threads: int = 0
+) -> np.ndarray:
+    """Closest hits without any hierarchy, in scalar code; the hierarchies equal it bit by bit.
+
+    triangles, faces: as in build(). rays: ray_dtype, any shape. Returns hit_dtype of that shape.
+    Cost: O(rays * triangles).
+    """
+    argument = TriangleArgument(triangles, faces)
+    rays = contiguous_rays(rays)
+    hits = np.empty(rays.shape, hit_dtype)
+    options = structs.TraceOptions(threads=library.unsigned("threads", threads))
+    library.check(
+        library.core().sobb_brute_force(
+            byref(argument.struct), rays.ctypes.data, rays.size, hits.ctypes.data, byref(options)
+        )
+    )
+    return hits

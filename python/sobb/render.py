@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures of a hierarchy: shaded, and the work done for each ray."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from sobb import rays as make
+from sobb.dtypes import is_hit
+from sobb.hierarchy import Hierarchy
+from sobb.image import to_srgb
+from sobb.surface import Surface, SurfacePoints, normalised
+from sobb.view import View
+
+Progress = Callable[[float], None]
+
+_SAMPLES = 3  # a pixel, in each direction
+_BOUNCES = 2  # ambient rays a sample
+_BAND = 24 * _SAMPLES  # rows of samples traced at once: whole tiles, whole pixels
+_REACH = 0.2  # how far ambient rays go, in diagonals of the bounds
+_SEED = 1
+
+# Linear light.
+_CLAY = np.array([0.62, 0.55, 0.47], np.float32)
+_SKY = np.array([0.86, 0.95, 1.1], np.float32)
+_GROUND = np.array([0.5, 0.42, 0.36], np.float32)
+_KEY = np.array([1.0, 0.93, 0.82], np.float32)
+_HORIZON = np.array([0.78, 0.83, 0.88], np.float32)
+_ZENITH = np.array([0.24, 0.35, 0.5], np.float32)
+
+
+def shaded(
+    hierarchy: Hierarchy, view: View, width: int, height: int, progress: Progress = lambda _: None
+) -> np.ndarray:
+    """A picture as sRGB bytes, uint8 (height, width, 3): clay under a sky, with ambient occlusion.
+
+    Takes 9 samples a pixel. `progress` hears the fraction done, 0 to 1.
+    """
+    shader = _Shader(hierarchy, view)
+    across, down = width * _SAMPLES, height * _SAMPLES
+    picture = np.empty((height, width, 3), np.float32)
+    for top in range(0, down, _BAND):
+        rows = min(_BAND, down - top)
+        pixels = make.tile_order(across, rows)
+        samples = np.empty((rows * across, 3), np.float32)
+        rays = make.through_pixels(view, across, down, pixels + top * across)
+        samples[pixels] = shader.colours(rays, seed=top)
+        grid = samples.reshape(rows // _SAMPLES, _SAMPLES, width, _SAMPLES, 3)
+        picture[top // _SAMPLES : (top + rows) // _SAMPLES] = grid.mean(axis=(1, 3))
+        progress((top + rows) / down)
+    return to_srgb(picture)
+
+
+def work(hierarchy: Hierarchy, view: View, width: int, height: int) -> np.ndarray:
+    """Volumes and triangles tested for the primary ray of each pixel: uint32 (height, width)."""
+    rays, pixels = make.primary(view, width, height)
+    _, counts = hierarchy.intersect(rays, counts=True)
+    picture = np.empty(width * height, np.uint32)
+    picture[pixels] = counts["volumes"] + counts["triangles"]
+    return picture.reshape(height, width)
+
+
+class _Shader:
+    def __init__(self, hierarchy: Hierarchy, view: View):
+        self._hierarchy = hierarchy
+        self._surface = Surface(hierarchy)
+        info = hierarchy.info
+        diagonal = np.linalg.norm(np.subtract(info.bounds_max, info.bounds_min))
+        self._reach = _REACH * float(diagonal)
+        forward, up = (
+            normalised(np.array([v], np.float32))[0]
+            for v in (np.subtract(view.target, view.eye), view.up)
+        )
+        right = np.cross(forward, up)
+        self._up = up
+        # Over the photographer's left shoulder.
+        self._key = normalised((-0.6 * forward - 0.45 * right + 0.65 * up)[None])[0]
+
+    def colours(self, rays: np.ndarray, seed: int) -> np.ndarray:
+        """Linear light along rays (n,): float32 (n, 3)."""
+        hits = self._hierarchy.intersect(rays, coherent=True)
+        hit = is_hit(hits)
+        colours = np.empty((len(rays), 3), np.float32)
+        colours[~hit] = self._background(rays["direction"][~hit])
+        colours[hit] = self._shade(self._surface.points(rays, hits), rays[hit], seed)
+        return colours
+
+    def _background(self, directions: np.ndarray) -> np.ndarray:
+        height = np.clip(directions @ self._up * 0.8 + 0.5, 0, 1)[:, None]
+        return _HORIZON + (_ZENITH - _HORIZON) * height
+
+    def _shade(self, points: SurfacePoints, rays: np.ndarray, seed: int) -> np.ndarray:
+        open_sky = self._openness(points, seed)[:, None]
+        upward = (0.5 + 0.5 * points.normal @ self._up)[:, None]
+        ambient = (_GROUND + (_SKY - _GROUND) * upward) * open_sky
+        key = self._key_light(points)[:, None] * _KEY
+        facing = -np.einsum("ij,ij->i", points.normal, rays["direction"])[:, None]
+        return _CLAY * (0.62 * ambient + 0.75 * key + 0.12 * facing * open_sky)
+
+    def _openness(self, points: SurfacePoints, seed: int) -> np.ndarray:
+        """The share of ambient rays that leave each point without meeting anything in reach."""
+        free = np.zeros(len(points), np.float32)
+        for bounce in range(_BOUNCES):
+            rays = make.diffuse(points, seed=(_SEED, seed, bounce))
+            rays["tmax"] = self._reach
+            free += self._hierarchy.occluded(rays) == 0
+        return free / _BOUNCES
+
+    def _key_light(self, points: SurfacePoints) -> np.ndarray:
+        """The cosine to the key light where nothing in reach is in its way."""
+        cosine = np.maximum(points.normal @ self._key, 0)
+        lit = np.flatnonzero(cosine > 0)
+        origins = points.lifted()[lit]
+        rays = make.make_rays(origins, np.broadcast_to(self._key, origins.shape), self._reach)
+        cosine[lit[self._hierarchy.occluded(rays, coherent=True) != 0]] = 0
+        return cosine

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Triangles from a scene file or a built-in scene."""
+
+import ctypes
+import os
+from ctypes import byref, c_void_p
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+
+import numpy as np
+
+from sobb import library, structs
+from sobb.library import Handle, borrow, check
+from sobb.view import View
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A mesh of the file as placed in the scene: a range of the scene's triangles."""
+
+    name: str
+    first_triangle: int
+    triangle_count: int
+
+
+class Scene:
+    """An immutable scene. Made by Scene.load(); a context manager that closes it."""
+
+    def __init__(self, handle: Handle):
+        self._handle: Handle | None = handle
+
+    @classmethod
+    def load(
+        cls,
+        source: str | os.PathLike[str],
+        views: str | os.PathLike[str] | None = None,
+        memory_limit: int = 0,
+    ) -> "Scene":
+        """
+        source: a .gltf, .glb, .obj, .ply, .stl or .off file, or "builtin:NAME[:TRIANGLES][@DEGREES]".
+        views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
+        memory_limit: bytes that the scene may take; 0 for none.
+        """
+        options = structs.SceneOptions(
+            views_path=None if views is None else library.path_bytes(views),
+            memory_limit=library.unsigned("memory_limit", memory_limit, 64),
+        )
+        out = c_void_p()
+        lib = library.scene()
+        check(lib.sobb_scene_load(library.path_bytes(source), byref(options), byref(out)))
+        return cls(Handle(out, lib.sobb_scene_release))
+
+    @property
+    def handle(self) -> Handle:
+        """The scene's memory: what keeps it alive."""
+        if self._handle is None:
+            raise ValueError("the scene is closed")
+        return self._handle
+
+    def close(self) -> None:
+        """Lets go of the scene. Its memory is freed when the arrays taken from it are gone."""
+        self._handle = None
+
+    def __enter__(self) -> "Scene":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<sobb.Scene, closed>"
+        return f"<sobb.Scene, {self.info.triangle_count} triangles>"
+
+    @property
+    def vertices(self) -> np.ndarray:
+        """Positions, float32 (n, 3), read-only, not copied; the array keeps the scene alive."""
+        t = self.triangles()
+        return borrow(
+            self.handle, t.vertices or 0, "<f4", (t.vertex_count, 3), (t.vertex_stride or 12, 4)
+        )
+
+    @property
+    def faces(self) -> np.ndarray:
+        """Vertex indices, uint32 (m, 3), read-only, not copied; the array keeps the scene alive."""
+        t = self.triangles()
+        return borrow(self.handle, t.indices or 0, "<u4", (t.triangle_count, 3), None)
+
+    @cached_property
+    def info(self) -> SimpleNamespace:
+        """The members of sobb_scene_info: vertex_count, triangle_count, degenerate_count,
+        mesh_count, view_count, bounds_min, bounds_max, default_view (1 where one was made)."""
+        info = structs.SceneInfo()
+        check(library.scene().sobb_scene_get_info(self.handle, byref(info)))
+        return structs.to_namespace(info)
+
+    @property
+    def meshes(self) -> list[Mesh]:
+        """The meshes, in the order of their triangles."""
+        handle, mesh, meshes = self.handle, structs.SceneMesh(), []
+        for i in range(self.info.mesh_count):
+            check(library.scene().sobb_scene_mesh(handle, i, byref(mesh)))
+            name = (mesh.name or b"").decode("utf-8", "replace")
+            meshes.append(Mesh(name, mesh.first_triangle, mesh.triangle_count))
+        return meshes
+
+    @property
+    def views(self) -> list[View]:
+        """The views, at least one."""
+        handle, view, views = self.handle, structs.SceneView(), []
+        for i in range(self.info.view_count):
+            check(library.scene().sobb_scene_view(handle, i, byref(view)))
+            views.append(
+                View(tuple(view.eye), tuple(view.target), tuple(view.up), view.vfov_degrees)
+            )
+        return views
+
+    def triangles(self) -> structs.Triangles:
+        """The scene's sobb_triangles; valid while its handle lives."""
+        triangles = structs.Triangles()
+        check(library.scene().sobb_scene_triangles(self.handle, ctypes.byref(triangles)))
+        return triangles

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where a picture is taken from."""
+
+import json
+import math
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class View:
+    """A pinhole view: positions in the scene's units, vfov the whole vertical angle."""
+
+    eye: Vector
+    target: Vector
+    up: Vector
+    vfov_degrees: float
+
+
+def default_view(bounds_min: Sequence[float], bounds_max: Sequence[float]) -> View:
+    """The view of what has none, as scene.h states it: from the box's centre c with half diagonal
+    h, the eye at c + 2.2 h (0.48, 0.36, 0.8), looking at c, up y, 50 degrees."""
+    centre = tuple((a + b) / 2 for a, b in zip(bounds_min, bounds_max))
+    half = math.dist(bounds_min, bounds_max) / 2 or 1.0
+    eye = tuple(c + 2.2 * half * d for c, d in zip(centre, (0.48, 0.36, 0.8)))
+    return View(eye, centre, (0.0, 1.0, 0.0), 50.0)
+
+
+def read_views(path: str | os.PathLike[str], stem: str) -> list[View]:
+    """The views of `stem` in a JSON file of views (scene.h says how it looks).
+
+    Raises OSError, or ValueError naming the file and the view that is wrong.
+    """
+    try:
+        views = json.loads(Path(path).read_text("utf-8"))[stem]
+    except KeyError:
+        raise ValueError(f"{path}: no views of {stem!r}") from None
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{path}: not a JSON object of views: {error}") from None
+    try:
+        return [_parse(view) for view in views]
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{path}: views of {stem!r}: {error!r}") from None
+
+
+def _parse(view: dict) -> View:
+    def vector(name: str) -> Vector:
+        x, y, z = (float(value) for value in view[name])
+        return x, y, z
+
+    return View(vector("eye"), vector("target"), vector("up"), float(view["vfov_degrees"]))
