@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "build/leaf.h"
+
+#include "build/clip.h"
+
+namespace sobb {
+namespace {
+
+// Relative to the centre: the difference of two floats is exact enough in double to be rounded once.
+RelativePoint relative(const double point[3], const float centre[3]) {
+  return {static_cast<float>(point[0] - centre[0]), static_cast<float>(point[1] - centre[1]),
+          static_cast<float>(point[2] - centre[2])};
+}
+
+}  // namespace
+
+void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& directions,
+              const float centre[3], const BoundsKernels& kernels, Kdop& kdop) {
+  RelativePoint points[9 * kMaxLeafReferences];
+  uint64_t count = 0;
+  for (uint64_t i = 0; i < leaf.reference_count; ++i) {
+    const Reference& reference = leaf.references[i];
+    const Corners corners(mesh, reference.primitive);
+    double polygon[9][3];
+    int polygon_count = 0;
+    if (reference.box == corners.box()) {
+      for (; polygon_count < 3; ++polygon_count) {
+        std::copy(corners.at[polygon_count], corners.at[polygon_count] + 3,
+                  polygon[polygon_count]);
+      }
+    } else {
+      polygon_count = clip_to_box(corners, reference.box, polygon);
+    }
+    for (int j = 0; j < polygon_count; ++j) points[count++] = relative(polygon[j], centre);
+  }
+  kernels.fit(directions, points, count, kdop);
+}
+
+void write_blocks(const Mesh& mesh, const LeafNode& leaf, TriangleBlock* blocks) {
+  for (uint64_t i = 0; i < blocks_of(leaf.reference_count); ++i) {
+    for (uint64_t lane = 0; lane < 4; ++lane) {
+      const uint64_t at = 4 * i + lane;
+      if (at >= leaf.reference_count) {
+        blocks[i].primitive[lane] = kNoPrimitive;
+        continue;
+      }
+      const uint32_t primitive = leaf.references[at].primitive;
+      const Corners corners(mesh, primitive);
+      for (int vertex = 0; vertex < 3; ++vertex) {
+        for (int axis = 0; axis < 3; ++axis) {
+          blocks[i].vertex[vertex][axis][lane] = corners.at[vertex][axis];
+        }
+      }
+      blocks[i].primitive[lane] = primitive;
+    }
+  }
+}
+
+}  // namespace sobb

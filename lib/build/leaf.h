@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A leaf's k-DOP and its triangle blocks.
+#pragma once
+
+#include "bounds/bounds_kernels.h"
+#include "build/mesh.h"
+#include "build/topology.h"
+#include "format/layout.h"
+
+namespace sobb {
+
+// The k-DOP of a leaf's triangles, each clipped to its reference's box where a spatial split cut
+// it.
+void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& directions,
+              const float centre[3], const BoundsKernels& kernels, Kdop& kdop);
+
+// Writes a leaf's blocks_of(reference_count) blocks.
+void write_blocks(const Mesh& mesh, const LeafNode& leaf, TriangleBlock* blocks);
+
+}  // namespace sobb

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "build/volumes.h"
+
+#include <atomic>
+#include <vector>
+
+#include "build/leaf.h"
+
+namespace sobb {
+namespace {
+
+// What a ray pays, in units of a node test with a shared basis (measured: docs/performance.md).
+// A test with a basis for each child gathers from the ray's table.
+constexpr float kSharedCost = 1.0F;
+constexpr float kOwnCost = 1.8F;
+constexpr float kBlockCost = 1.0F;
+
+// A child, as its parent sees it.
+struct Bounded {
+  Kdop kdop;
+  float cost;      // of visiting it, given that a ray meets its volume
+  float area;      // in its own best basis, over the squared scene radius
+  uint16_t basis;  // that one
+};
+
+// How the children of a node are bounded.
+struct NodeBases {
+  uint16_t basis[kMaxWidth];
+  bool shared;
+  float cost;  // expected, in units of area: of the node's test and all below
+};
+
+class VolumeMaker {
+ public:
+  VolumeMaker(const Mesh& mesh, const VolumeSettings& settings, const ImageParts& parts,
+              std::pmr::memory_resource& memory)
+      : mesh_(mesh),
+        settings_(settings),
+        parts_(parts),
+        kernels_(bounds_kernels(settings.isa)),
+        directions_(make_direction_table(parts.directions)),
+        table_(directions_, memory),
+        scale_(parts.header->radius > 0 ? 1 / parts.header->radius : 1) {}
+
+  // Makes a part's nodes and blocks, last to first, so that children come before their parent.
+  // `bounded` has what is known of the part's nodes' children: by node, and by place for the
+  // subtrees below the top. Returns the root's.
+  template <int W, class ChildOf>
+  Bounded make_part(const Part& part, std::pmr::memory_resource& memory,
+                    const ChildOf& subtree_of) const {
+    std::pmr::vector<Bounded> bounded(part.nodes.size(), &memory);
+    auto* nodes = static_cast<Node<W>*>(parts_.nodes);
+    for (size_t at = part.nodes.size(); at-- > 0;) {
+      const WideNode& wide = part.nodes[at];
+      Bounded leaf[kMaxWidth];
+      const Bounded* child[kMaxWidth];
+      for (uint32_t i = 0; i < wide.child_count; ++i) {
+        if (wide.child[i]->is_leaf) {
+          make_leaf(*static_cast<const LeafNode*>(wide.child[i]), wide.index[i], leaf[i]);
+          child[i] = &leaf[i];
+        } else {
+          const Bounded* below = subtree_of(static_cast<uint32_t>(at), i);
+          child[i] = below != nullptr ? below : &bounded[wide.index[i] - part.first_node];
+        }
+      }
+      make_node(wide, child, nodes[part.first_node + at], bounded[at]);
+    }
+    return bounded[0];
+  }
+
+ private:
+  void make_leaf(const LeafNode& leaf, uint32_t block, Bounded& bounded) const {
+    fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop);
+    write_blocks(mesh_, leaf, &parts_.blocks[block]);
+    bounded.cost = kBlockCost * static_cast<float>(blocks_of(leaf.reference_count));
+    find_basis(bounded);
+  }
+
+  // The best basis of one volume alone.
+  void find_basis(Bounded& bounded) const {
+    if (settings_.volume == SOBB_VOLUME_AABB) return;
+    Gram gram = {};
+    kernels_.add_to_gram(bounded.kdop, scale_, 1, gram);
+    const BasisChoice choice = kernels_.choose(table_, gram, settings_.strategy);
+    bounded.basis = choice.basis;
+    bounded.area = choice.area;
+  }
+
+  template <int W>
+  void make_node(const WideNode& wide, const Bounded* const* child, Node<W>& node,
+                 Bounded& bounded) const {
+    bounded.kdop = child[0]->kdop;
+    for (uint32_t i = 1; i < wide.child_count; ++i) bounded.kdop.merge(child[i]->kdop);
+    find_basis(bounded);
+    const NodeBases bases = choose_bases(wide.child_count, child, bounded.area);
+    bounded.cost = bounded.area > 0 ? bases.cost / bounded.area : kSharedCost;
+    for (uint32_t i = 0; i < wide.child_count; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const uint32_t direction = basis_direction(bases.basis[i], j);
+        node.slab[j][0][i] = child[i]->kdop.lower[direction];
+        node.slab[j][1][i] = child[i]->kdop.upper[direction];
+      }
+      node.reference[i] = wide.index[i];
+      node.basis[i] = bases.basis[i];
+      if (wide.child[i]->is_leaf) {
+        node.meta[i] = static_cast<uint16_t>(kLeafBit | wide.child[i]->reference_count);
+      }
+    }
+    node.meta[0] |= static_cast<uint16_t>(wide.child_count << kChildCountShift);
+    if (bases.shared) node.meta[0] |= kSharedBit;
+  }
+
+  // The surface area heuristic decides between the axes for all children, another shared basis,
+  // and a basis for each child: area(node) * cost(test) + sum area(child) * cost(child).
+  NodeBases choose_bases(uint32_t count, const Bounded* const* child, float node_area) const {
+    NodeBases bases{};
+    std::fill(bases.basis, bases.basis + count, kAxesBasis);
+    bases.shared = true;
+    if (settings_.volume == SOBB_VOLUME_AABB) return bases;
+    Gram gram = {};
+    float own = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      kernels_.add_to_gram(child[i]->kdop, scale_, child[i]->cost, gram);
+      own += child[i]->area * child[i]->cost;
+    }
+    const BasisChoice shared = kernels_.choose(table_, gram, settings_.strategy);
+    const float axes = area_in_basis(table_, gram, kAxesBasis);
+    bases.cost = axes + kSharedCost * node_area;
+    if (shared.area < axes) {
+      std::fill(bases.basis, bases.basis + count, shared.basis);
+      bases.cost = shared.area + kSharedCost * node_area;
+    }
+    if (own + kOwnCost * node_area < bases.cost) {
+      for (uint32_t i = 0; i < count; ++i) bases.basis[i] = child[i]->basis;
+      bases.cost = own + kOwnCost * node_area;
+      bases.shared = false;
+    }
+    return bases;
+  }
+
+  const Mesh& mesh_;
+  VolumeSettings settings_;
+  ImageParts parts_;
+  const BoundsKernels& kernels_;
+  DirectionTable directions_;
+  BasisTable table_;
+  float scale_;  // of widths, so that areas neither overflow nor vanish
+};
+
+template <int W>
+void make_volumes_of(const VolumeMaker& maker, const WideTopology& wide, const Scheduler& scheduler,
+                     Memory& memory, Progress& progress, double progress_begin) {
+  std::pmr::vector<Bounded> roots(wide.subtrees.size(), &memory);
+  std::atomic<uint64_t> done{0};
+  scheduler.for_each(wide.subtrees.size(), [&](uint64_t i) {
+    const auto none = [](uint32_t, uint32_t) -> const Bounded* { return nullptr; };
+    progress.check(progress_begin, 1,
+                   static_cast<double>(done) / static_cast<double>(wide.subtrees.size()));
+    roots[i] = maker.make_part<W>(wide.subtrees[i], memory, none);
+    ++done;
+  });
+  // Places are in the order of the top's nodes and their children.
+  const auto subtree = [&](uint32_t node, uint32_t child) -> const Bounded* {
+    const auto at = std::lower_bound(
+        wide.places.begin(), wide.places.end(), std::pair(node, child),
+        [](const WideTopology::Place& place, const std::pair<uint32_t, uint32_t>& wanted) {
+          return std::pair(place.node, place.child) < wanted;
+        });
+    const bool found = at != wide.places.end() && at->node == node && at->child == child;
+    return found ? &roots[static_cast<size_t>(at - wide.places.begin())] : nullptr;
+  };
+  maker.make_part<W>(wide.top, memory, subtree);
+  progress.check(progress_begin, 1, 1);
+}
+
+}  // namespace
+
+void make_volumes(const Mesh& mesh, const WideTopology& wide, const VolumeSettings& settings,
+                  const ImageParts& parts, const Scheduler& scheduler, Memory& memory,
+                  Progress& progress, double progress_begin) {
+  const VolumeMaker maker(mesh, settings, parts, memory);
+  if (parts.header->width == 4) {
+    make_volumes_of<4>(maker, wide, scheduler, memory, progress, progress_begin);
+  } else {
+    make_volumes_of<8>(maker, wide, scheduler, memory, progress, progress_begin);
+  }
+}
+
+}  // namespace sobb

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bottom-up: the k-DOP of every child, its volume, and from these the nodes and triangle blocks of
+// the file.
+#pragma once
+
+#include "base/memory.h"
+#include "base/scheduler.h"
+#include "bounds/direction_table.h"
+#include "build/collapse.h"
+#include "build/mesh.h"
+#include "build/progress.h"
+#include "format/writer.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+struct VolumeSettings {
+  sobb_volume volume;
+  sobb_strategy strategy;
+  sobb_isa isa;
+};
+
+// Fills the nodes and blocks of `parts`, whose header (centre, radius, width) and directions are
+// set. Progress runs from `progress_begin` to 1.
+void make_volumes(const Mesh& mesh, const WideTopology& wide, const VolumeSettings& settings,
+                  const ImageParts& parts, const Scheduler& scheduler, Memory& memory,
+                  Progress& progress, double progress_begin);
+
+}  // namespace sobb
