@@ -38,6 +38,25 @@ bool has_area(const float* a, const float* b, const float* c) {
 SceneWriter::SceneWriter(std::string name, uint64_t memory_limit, Scene& scene)
     : name_(std::move(name)), memory_limit_(memory_limit), scene_(scene) {}
 
+void SceneWriter::hold(uint64_t bytes) {
+  if (bytes > memory_left()) refuse_memory(bytes);
+  held_ += bytes;
+}
+
+uint64_t SceneWriter::memory_left() const {
+  if (memory_limit_ == 0) return std::numeric_limits<uint64_t>::max();
+  const uint64_t taken = held_ + scene_.vertices.capacity() * sizeof(float) +
+                         scene_.indices.capacity() * sizeof(uint32_t);
+  return taken < memory_limit_ ? memory_limit_ - taken : 0;
+}
+
+void SceneWriter::refuse_memory(uint64_t bytes) const {
+  fail(SOBB_ERROR_MEMORY_LIMIT, "%s: needs %llu bytes more, %llu of the limit of %llu are left",
+       name_.c_str(), static_cast<unsigned long long>(bytes),
+       static_cast<unsigned long long>(memory_left()),
+       static_cast<unsigned long long>(memory_limit_));
+}
+
 void SceneWriter::begin_mesh(std::string name) {
   end_mesh();
   scene_.meshes.push_back({valid_utf8(std::move(name)), scene_.indices.size() / 3, 0});
@@ -75,16 +94,11 @@ void SceneWriter::refuse_polygon(std::span<const uint64_t> corners,
        static_cast<unsigned long long>(vertex_count()));
 }
 
-// Makes room for `size` elements where the limit allows; `other_bytes` are those of the other
-// array. The old elements live until they are moved, so they count beside the new ones.
+// Makes room for `size` elements where the limit allows: the old elements live until they are
+// moved, so the new ones come on top.
 template <class T>
-void SceneWriter::reserve(std::vector<T>& array, uint64_t size, uint64_t other_bytes) {
-  const uint64_t bytes = (size + array.capacity()) * sizeof(T) + other_bytes;
-  if (memory_limit_ != 0 && bytes > memory_limit_) {
-    fail(SOBB_ERROR_MEMORY_LIMIT, "%s: the scene needs %llu bytes, the limit is %llu",
-         name_.c_str(), static_cast<unsigned long long>(bytes),
-         static_cast<unsigned long long>(memory_limit_));
-  }
+void SceneWriter::reserve(std::vector<T>& array, uint64_t size) {
+  if (size * sizeof(T) > memory_left()) refuse_memory(size * sizeof(T));
   array.reserve(size);
 }
 
@@ -93,7 +107,7 @@ void SceneWriter::grow_vertices() {
   if (size / 3 >= kMaxVertices) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices", name_.c_str());
   }
-  reserve(scene_.vertices, roomy(size, kMaxVertices), scene_.indices.capacity() * sizeof(uint32_t));
+  reserve(scene_.vertices, roomy(size, kMaxVertices));
 }
 
 void SceneWriter::grow_indices() {
@@ -101,25 +115,27 @@ void SceneWriter::grow_indices() {
   if (size / 3 >= kMaxTriangles) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 - 3 triangles", name_.c_str());
   }
-  reserve(scene_.indices, roomy(size, kMaxTriangles), scene_.vertices.capacity() * sizeof(float));
+  reserve(scene_.indices, roomy(size, kMaxTriangles));
+}
+
+void SceneWriter::check_counts(uint64_t vertices, uint64_t triangles) const {
+  if (vertices > kMaxVertices - vertex_count() ||
+      triangles > kMaxTriangles - scene_.indices.size() / 3) {
+    fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices or 2^32 - 3 triangles", name_.c_str());
+  }
 }
 
 void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
-  if (vertices > kMaxVertices - std::min(kMaxVertices, vertex_count()) ||
-      triangles > kMaxTriangles - std::min<uint64_t>(kMaxTriangles, scene_.indices.size() / 3)) {
-    fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices or 2^32 - 3 triangles", name_.c_str());
-  }
+  check_counts(vertices, triangles);
   // Where a file declares its meshes one by one, each must not move the arrays again.
   const auto enough = [](uint64_t size, uint64_t more) {
     return size == 0 ? 3 * more : std::max(size + 3 * more, size + size / 2);
   };
   if (scene_.vertices.capacity() - scene_.vertices.size() < 3 * vertices) {
-    reserve(scene_.vertices, enough(scene_.vertices.size(), vertices),
-            scene_.indices.capacity() * sizeof(uint32_t));
+    reserve(scene_.vertices, enough(scene_.vertices.size(), vertices));
   }
   if (scene_.indices.capacity() - scene_.indices.size() < 3 * triangles) {
-    reserve(scene_.indices, enough(scene_.indices.size(), triangles),
-            scene_.vertices.capacity() * sizeof(float));
+    reserve(scene_.indices, enough(scene_.indices.size(), triangles));
   }
 }
 

@@ -17,6 +17,12 @@ class SceneWriter {
  public:
   SceneWriter(std::string name, uint64_t memory_limit, Scene& scene);
 
+  // The importer itself holds `bytes` more (the file, its buffers): they count against the limit.
+  void hold(uint64_t bytes);
+
+  const std::string& name() const { return name_; }
+  uint64_t memory_left() const;  // what the importer may yet hold; the largest number for no limit
+
   // Starts a mesh; triangles that follow are its own. A mesh without triangles leaves no trace.
   void begin_mesh(std::string name);
 
@@ -57,9 +63,12 @@ class SceneWriter {
     }
   }
 
-  // The bytes that `count` more vertices and triangles will take are known: refuse them early.
-  // A file that declares more than it can hold must be refused by its reader before this.
+  // So many vertices and triangles more will come: refuses too many (TOO_LARGE, MEMORY_LIMIT)
+  // before they do. A file that declares more than it can hold must be refused by its reader first.
   void expect(uint64_t vertices, uint64_t triangles);
+
+  // The first part of expect(), without making room. Error TOO_LARGE.
+  void check_counts(uint64_t vertices, uint64_t triangles) const;
 
   // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds. Error
   // EMPTY where no triangle came.
@@ -72,14 +81,16 @@ class SceneWriter {
   [[noreturn]] void refuse_vertex(float x, float y, float z, const std::string& place) const;
   [[noreturn]] void refuse_polygon(std::span<const uint64_t> corners,
                                    const std::string& place) const;
+  [[noreturn]] void refuse_memory(uint64_t bytes) const;
   void grow_vertices();
   void grow_indices();
   void end_mesh();
   template <class T>
-  void reserve(std::vector<T>& array, uint64_t size, uint64_t other_bytes);
+  void reserve(std::vector<T>& array, uint64_t size);
 
   std::string name_;
   uint64_t memory_limit_;
+  uint64_t held_ = 0;
   Scene& scene_;
 };
 
