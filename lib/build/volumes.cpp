@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "build/volumes.h"
 
+#include <algorithm>
 #include <atomic>
+#include <utility>
 #include <vector>
 
 #include "build/leaf.h"
@@ -18,9 +20,9 @@ constexpr float kBlockCost = 1.0F;
 // A child, as its parent sees it.
 struct Bounded {
   Kdop kdop;
-  float cost;      // of visiting it, given that a ray meets its volume
-  float area;      // in its own best basis, over the squared scene radius
-  uint16_t basis;  // that one
+  float cost = 0;  // of visiting it, given that a ray meets its volume
+  float area = 0;  // in its own best basis, over the squared scene radius; 0 where not needed
+  uint16_t basis = kAxesBasis;  // that one
 };
 
 // How the children of a node are bounded.

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole way from triangles to a file image.
+#pragma once
+
+#include <memory>
+
+#include "base/memory.h"
+#include "base/scheduler.h"
+#include "build/progress.h"
+#include "format/image.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// sobb_build_options with the defaults filled in and the values checked.
+struct BuildSettings {
+  sobb_volume volume;
+  sobb_quality quality;
+  sobb_strategy strategy;
+  sobb_isa isa;
+  uint32_t k;      // 6 for the AABB
+  uint32_t width;  // 4 or 8
+
+  // Errors: INVALID_ARGUMENT, UNSUPPORTED_CPU.
+  explicit BuildSettings(const sobb_build_options& options);
+};
+
+// Wall clock by stage.
+struct BuildTimes {
+  double topology_ms = 0;
+  double collapse_ms = 0;
+  double volume_ms = 0;
+  double total_ms = 0;
+};
+
+// Errors as sobb_build() says.
+Image build(const sobb_triangles& triangles, const BuildSettings& settings,
+            const Scheduler& scheduler, const std::shared_ptr<Memory>& memory, Progress& progress,
+            BuildTimes& times);
+
+}  // namespace sobb
