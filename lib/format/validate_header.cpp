@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
-#include <cstring>
 
 #include "base/error.h"
 #include "format/checksum.h"
@@ -41,7 +40,8 @@ void validate_fields(const FileHeader& header, const char* name) {
 
 const FileHeader& validate_header(const Reading& reading) {
   const auto [bytes, name, scheduler, scratch] = reading;
-  if (std::memcmp(bytes.data(), kMagic, std::min(bytes.size(), sizeof kMagic)) != 0) {
+  const size_t compared = std::min(bytes.size(), sizeof kMagic);
+  if (!std::ranges::equal(bytes.first(compared), std::as_bytes(std::span(kMagic, compared)))) {
     fail(SOBB_ERROR_FORMAT_MAGIC, "%s: not a sobb file: it begins with other bytes", name);
   }
   if (bytes.size() < sizeof(FileHeader)) {
@@ -64,8 +64,9 @@ const FileHeader& validate_header(const Reading& reading) {
   }
   if (header.section_count > kMaxSections ||
       header.section_count * sizeof(Section) > bytes.size() - sizeof(FileHeader)) {
-    fail(SOBB_ERROR_FORMAT_HEADER, "%s: header: section_count is %u, more than %u or the file",
-         name, header.section_count, kMaxSections);
+    fail(SOBB_ERROR_FORMAT_HEADER,
+         "%s: header: section_count is %u: more than %u, or than the file holds", name,
+         header.section_count, kMaxSections);
   }
   const size_t front = sizeof(FileHeader) + header.section_count * sizeof(Section);
   if (header.header_checksum != header_checksum(bytes.first(front))) {
