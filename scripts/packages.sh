@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sourced by the scripts: the Debian 12 packages that the project needs, and how they come.
+
+# Compilers, tools and libraries of a release build, and Python's virtual environments.
+build_packages="g++ cmake ninja-build ccache pkg-config
+  libembree-dev libtbb-dev libhwy-dev libxxhash-dev libtinygltf-dev nlohmann-json3-dev
+  libbenchmark-dev libcli11-dev python3-venv"
+
+# What the tests and checks need besides.
+test_packages="libgtest-dev libopenmesh-dev
+  clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
+
+# Installs those of the packages named that are missing; needs root or sudo only then.
+need_packages() {
+  if ! command -v dpkg-query >/dev/null; then
+    echo "This is no Debian: install by yourself what the packages $* contain." >&2
+    return
+  fi
+  local missing=() package
+  for package in "$@"; do
+    if [[ $(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) != installed ]]; then
+      missing+=("$package")
+    fi
+  done
+  ((${#missing[@]} == 0)) && return
+  echo "Installing with apt-get: ${missing[*]}"
+  local root=()
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || { echo "Run as root, or install sudo." >&2; return 1; }
+    root=(sudo)
+  fi
+  "${root[@]}" apt-get update -q
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends "${missing[@]}"
+}

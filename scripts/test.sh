@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Everything that has to pass: sets up what is missing, builds, runs the tests and the checks. The
+# last line counts tests and checks; the exit code is 0 where none failed.
+# usage: scripts/test.sh [--quick]   --quick: the release build's tests only
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+quick=no
+case "${1:-}" in
+  "") ;;
+  --quick) quick=yes ;;
+  *) echo "usage: scripts/test.sh [--quick]" >&2; exit 2 ;;
+esac
+
+jobs=$(nproc)
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+passed=0
+failed=0
+
+# check NAME COMMAND...: runs one check. Those after it run whatever it came to. Its output stands in
+# $log meanwhile; where that counts tests, they are added, else the check counts as one.
+check() {
+  local name=$1 start=$SECONDS result=passed
+  shift
+  printf '\n== %s\n' "$name"
+  "$@" 2>&1 | tee "$log" || result=FAILED
+  count_tests "$result"
+  echo "-- $name: $result, $((SECONDS - start)) s"
+}
+
+# Reads the closing line of ctest ("..., 1 tests failed out of 9") or pytest ("1 failed, 8 passed").
+count_tests() {
+  local ran=0 bad=0 line
+  line=$(grep -E '^[0-9]+% tests passed|^[0-9]+ (passed|failed).* in ' "$log" | tail -n 1 || true)
+  if [[ $line =~ ([0-9]+)\ tests\ failed\ out\ of\ ([0-9]+) ]]; then
+    bad=${BASH_REMATCH[1]}
+    ran=${BASH_REMATCH[2]}
+  elif [[ -n $line ]]; then
+    [[ $line =~ ([0-9]+)\ failed ]] && bad=${BASH_REMATCH[1]}
+    [[ $line =~ ([0-9]+)\ passed ]] && ran=$((BASH_REMATCH[1] + bad))
+  fi
+  if ((ran == 0)); then ran=1; fi
+  if [[ $1 == FAILED ]] && ((bad == 0)); then bad=1; fi
+  ((passed += ran - bad, failed += bad)) || true
+}
+
+build() {
+  cmake --preset "$1" >/dev/null && cmake --build --preset "$1"
+}
+
+format() {
+  git ls-files -z -- '*.c' '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
+}
+
+# clang-tidy repeats each file's command and counts what it does not show: neither is wanted.
+tidy() {
+  run-clang-tidy-14 -quiet -j "$jobs" -p build/release "^$PWD/(lib|capi)/" 2>&1 |
+    { grep -vE '^clang-tidy-14 |^[0-9]+ warnings generated|^$' || true; }
+}
+
+ruff() {
+  .venv/bin/ruff check python scripts && .venv/bin/ruff format --check python scripts
+}
+
+check "release build, g++" scripts/setup.sh --tests
+check "C++ tests" ctest --preset release -j "$jobs"
+check "Python tests" .venv/bin/python -m pytest -q python/tests
+if [[ $quick == no ]]; then
+  check "clang-format" format
+  check "ruff" ruff
+  check "clang-tidy" tidy
+  check "sanitizer build, clang" build asan
+  check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
+    ctest --preset asan -j "$jobs"
+fi
+
+printf '\n%d passed, %d failed\n' "$passed" "$failed"
+((failed == 0))
