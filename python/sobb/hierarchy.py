@@ -148,9 +148,7 @@ class Hierarchy:
             isa=isa_number(isa),
             counts=None if counts is None else counts.ctypes.data,
         )
-        check(
-            function(self.handle, rays.ctypes.data, rays.size, out.ctypes.data, byref(options))
-        )
+        check(function(self.handle, rays.ctypes.data, rays.size, out.ctypes.data, byref(options)))
 
     @property
     def handle(self) -> Handle:

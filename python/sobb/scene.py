@@ -38,7 +38,8 @@ class Scene:
         memory_limit: int = 0,
     ) -> "Scene":
         """
-        source: a .gltf, .glb, .obj, .ply, .stl or .off file, or "builtin:NAME[:TRIANGLES][@DEGREES]".
+        source: a .gltf, .glb, .obj, .ply, .stl or .off file, or
+            "builtin:NAME[:TRIANGLES][@DEGREES]".
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
         memory_limit: bytes that the scene may take; 0 for none.
         """

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Holding hierarchies against brute force over all triangles."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from sobb import rays as make
+from sobb.hierarchy import Hierarchy
+from sobb.oracle import brute_force
+from sobb.scene import Scene
+from sobb.surface import Surface
+from sobb.view import View
+
+_CHUNK = 100  # rays: between chunks Ctrl-C is heard, and the bar moves
+
+
+def mixed_rays(hierarchy: Hierarchy, view: View, count: int, seed: int) -> np.ndarray:
+    """Primary rays of a view, diffuse bounces and random rays through the bounds, a third each
+    (random ones in place of bounces that the view is too empty for): ray_dtype (count,)."""
+    random = np.random.default_rng(seed)
+    side = 256
+    pixels = random.choice(side * side, count * 2 // 3, replace=False)
+    primary = make.through_pixels(view, side, side, pixels)
+    points = Surface(hierarchy).points(primary, hierarchy.intersect(primary))
+    primary, bounces = primary[: count // 3], make.diffuse(points, seed)[: count // 3]
+    info = hierarchy.info
+    rest = count - len(primary) - len(bounces)
+    through = make.random_in_box(info.bounds_min, info.bounds_max, rest, seed)
+    return np.concatenate([primary, bounces, through])
+
+
+def against_brute_force(
+    hierarchies: Sequence[Hierarchy],
+    scene: Scene,
+    rays: np.ndarray,
+    progress: Callable[[float], None] = lambda _: None,
+) -> None:
+    """Raises ValueError, naming the ray, unless every hierarchy hits what brute force hits, bit by
+    bit in primitive, t, u and v."""
+    for first in range(0, len(rays), _CHUNK):
+        chunk = rays[first : first + _CHUNK]
+        right = brute_force(scene, chunk)
+        for hierarchy in hierarchies:
+            found = hierarchy.intersect(chunk)
+            # As bytes: -0.0 is not 0.0 here.
+            wrong = np.flatnonzero(right.view("V24") != found.view("V24"))
+            if wrong.size:
+                i = int(wrong[0])
+                raise ValueError(
+                    f"{hierarchy.info.volume}: ray {first + i} {chunk[i]} hits {found[i]}, "
+                    f"by brute force {right[i]}"
+                )
+        progress((first + len(chunk)) / len(rays))

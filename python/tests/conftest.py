@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the tests share: a small mesh, its hierarchies, rays around it, the command line."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import sobb
+from sobb import rays as make
+
+SEED = 20250607
+
+
+@pytest.fixture(scope="session")
+def rng():
+    """Random numbers of a seed that a failing test prints."""
+    print(f"seed {SEED}")
+    return np.random.default_rng(SEED)
+
+
+@pytest.fixture(scope="session")
+def mesh(rng):
+    """(vertices, faces) of 500 thin triangles at all angles."""
+    centre = rng.uniform(-1, 1, (500, 1, 3))
+    vertices = (centre + rng.normal(0, 0.1, (500, 3, 3))).astype(np.float32).reshape(-1, 3)
+    return vertices, np.arange(1500, dtype=np.uint32).reshape(-1, 3)
+
+
+@pytest.fixture(scope="session", params=["aabb", "sobb"])
+def hierarchy(request, mesh):
+    return sobb.build(*mesh, volume=request.param)
+
+
+@pytest.fixture(scope="session")
+def rays(rng):
+    """2,000 rays between random points of the box of the mesh."""
+    return make.random_in_box((-1, -1, -1), (1, 1, 1), 2000, SEED)
+
+
+@pytest.fixture
+def cli():
+    """Runs `python -m sobb` with arguments; returns the finished process."""
+
+    def run(*arguments):
+        command = [sys.executable, "-m", "sobb", *map(str, arguments)]
+        return subprocess.run(command, check=False, capture_output=True, text=True, timeout=120)
+
+    return run
