@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line, by CLI11.
+#include "flags.h"
+
+#include <benchmark/benchmark.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+
+namespace sobb::bench {
+namespace {
+
+constexpr int kUsageError = 2;
+
+// Medians of interleaved repetitions: what makes rows of one run comparable. The caller's flags
+// come later on Google Benchmark's command line and win.
+const std::vector<std::string> kBenchmarkDefaults{"--benchmark_repetitions=5",
+                                                  "--benchmark_enable_random_interleaving=true",
+                                                  "--benchmark_display_aggregates_only=true"};
+
+CLI::CheckedTransformer names(const std::map<std::string, uint32_t>& values) {
+  return CLI::CheckedTransformer(values, CLI::ignore_case);
+}
+
+void add_flags(CLI::App& app, Flags& flags) {
+  app.add_option("--scene", flags.scene, "a scene file, or builtin:NAME[:TRIANGLES][@DEGREES]")
+      ->capture_default_str();
+  app.add_option("--cameras", flags.cameras, "a JSON file of views (see sobb/scene.h)");
+  app.add_option("--view", flags.view, "which of the scene's views")->capture_default_str();
+  app.add_option("--size", flags.size, "trace SIZE x SIZE primary rays")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
+  app.add_option("--k", flags.k, "planes of the k-DOP")
+      ->check(CLI::IsMember({32, 48, 64}))
+      ->capture_default_str();
+  app.add_option("--quality", flags.quality, "of our topology: low, medium (default) or high")
+      ->transform(names({{"low", SOBB_QUALITY_LOW},
+                         {"medium", SOBB_QUALITY_MEDIUM},
+                         {"high", SOBB_QUALITY_HIGH}}));
+  app.add_option("--strategy", flags.strategy, "of the basis: k, k2 (default) or k3")
+      ->transform(
+          names({{"k", SOBB_STRATEGY_K}, {"k2", SOBB_STRATEGY_K2}, {"k3", SOBB_STRATEGY_K3}}));
+  app.add_option("--width", flags.width, "children a node")
+      ->check(CLI::IsMember({4, 8}))
+      ->capture_default_str();
+  app.add_option("--threads", flags.threads, "threads of every build and trace, Embree's too")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--isa", flags.isa, "our kernels: best, sse4 or avx2")
+      ->check(CLI::IsMember({"best", "sse4", "avx2"}))
+      ->capture_default_str();
+  app.add_flag("--embree-robust", flags.embree_robust, "Embree's scenes with the robust flag");
+  app.add_option("--embree-isa", flags.embree_isa, "Embree's device option isa, e.g. sse4.2, avx2");
+}
+
+}  // namespace
+
+Flags parse_flags(int argc, char** argv) {
+  Flags flags;
+  CLI::App app{"Builds, opens and traces SOBB hierarchies beside Embree on the same rays."};
+  add_flags(app, flags);
+  app.allow_extras();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help() << "\nand those of Google Benchmark:\n" << std::flush;
+    benchmark::PrintDefaultHelp();
+    std::exit(0);
+  } catch (const CLI::ParseError& error) {
+    std::cerr << "sobb_bench: " << error.what() << "\n" << app.help();
+    std::exit(kUsageError);
+  }
+
+  flags.benchmark_arguments = {argv[0]};
+  flags.benchmark_arguments.insert(flags.benchmark_arguments.end(), kBenchmarkDefaults.begin(),
+                                   kBenchmarkDefaults.end());
+  for (const std::string& extra : app.remaining()) {
+    if (!extra.starts_with("--benchmark_")) {
+      std::cerr << "sobb_bench: unknown argument " << extra << "\n" << app.help();
+      std::exit(kUsageError);
+    }
+    flags.benchmark_arguments.push_back(extra);
+  }
+  return flags;
+}
+
+}  // namespace sobb::bench

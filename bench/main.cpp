@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// sobb_bench: exit code 0 when all rows ran and our hits agree, 1 when not, 2 for wrong usage.
+#include <benchmark/benchmark.h>
+
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+
+#include "context.h"
+#include "flags.h"
+#include "reporter.h"
+#include "rows.h"
+#include "verify.h"
+
+namespace {
+
+using namespace sobb::bench;
+
+int run(const Flags& flags) {
+  std::vector<std::string> arguments = flags.benchmark_arguments;
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  int argc = static_cast<int>(argv.size());
+  argv.push_back(nullptr);
+  benchmark::Initialize(&argc, argv.data());
+  if (benchmark::ReportUnrecognizedArguments(argc, argv.data())) return 2;
+
+  // Calls for one ray and for a packet take their instruction set from the environment.
+  if (flags.isa != "best") setenv("SOBB_ISA", flags.isa.c_str(), 1);
+  Workbench workbench(flags);
+  add_context(workbench);
+  register_build_rows(workbench);
+  register_open_rows(workbench);
+  register_trace_rows(workbench);
+
+  Reporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  std::cout << std::flush;
+  // A row that failed has nothing to verify with, and may fail the same way again.
+  if (reporter.any_failed() || !verify(workbench, std::cerr)) return 1;
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(parse_flags(argc, argv));
+  } catch (const std::exception& error) {
+    std::cerr << "sobb_bench: " << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Remembers medians and prints the table of ratios.
+#include "reporter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+namespace sobb::bench {
+
+// The default display lives as long as the program.
+Reporter::Reporter()
+    : display_(*benchmark::CreateDefaultDisplayReporter()),
+      on_console_(dynamic_cast<benchmark::ConsoleReporter*>(&display_) != nullptr) {}
+
+bool Reporter::ReportContext(const Context& context) { return display_.ReportContext(context); }
+
+void Reporter::ReportRuns(const std::vector<Run>& runs) {
+  std::vector<Run> shown;
+  for (const Run& run : runs) {
+    remember(run);
+    const bool other_statistic =
+        run.run_type == Run::RT_Aggregate && run.aggregate_name != "median";
+    if (!on_console_ || !other_statistic) shown.push_back(run);
+  }
+  if (!shown.empty()) display_.ReportRuns(shown);
+}
+
+void Reporter::remember(const Run& run) {
+  any_failed_ |= run.error_occurred;
+  const auto speed = run.counters.find("Mrays/s");
+  if (run.error_occurred || speed == run.counters.end()) return;
+  // Without repetitions there is no aggregate, and the single run is the median.
+  const bool sole = run.run_type == Run::RT_Iteration && run.repetitions <= 1;
+  if (sole || run.aggregate_name == "median") {
+    mrays_[run.run_name.function_name] = speed->second;
+  } else if (run.aggregate_name == "cv") {
+    largest_variation_ = std::max<double>(largest_variation_, speed->second);
+  }
+}
+
+void Reporter::Finalize() {
+  display_.Finalize();
+  if (on_console_ && !mrays_.empty()) print_ratios(GetOutputStream());
+}
+
+double Reporter::speed(RayKind kind, Method method, Call call) const {
+  const auto row = mrays_.find(row_name(kind, method, call));
+  return row == mrays_.end() ? 0 : row->second;
+}
+
+double Reporter::best_peer(RayKind kind) const {
+  double best = 0;
+  for (const Method method : kPeers) {
+    for (const Call call : kCalls) best = std::max(best, speed(kind, method, call));
+  }
+  return best;
+}
+
+void Reporter::print_ratios(std::ostream& out) const {
+  constexpr int kNameWidth = 24;
+  constexpr int kCellWidth = 18;
+  out << "\nMrays/s, medians (in brackets: over the kind's fastest Embree row)\n"
+      << std::left << std::setw(kNameWidth) << "" << std::right;
+  for (const Call call : kCalls) out << std::setw(kCellWidth) << name_of(call);
+  out << "\n";
+  for (const RayKind kind : kRayKinds) {
+    const double best = best_peer(kind);
+    for (const Method method :
+         {Method::kAabb, Method::kSobb, Method::kEmbreeMedium, Method::kEmbreeHigh}) {
+      std::ostringstream line;
+      line << std::fixed << std::left << std::setw(kNameWidth)
+           << name_of(kind) + "/" + name_of(method) << std::right;
+      bool any = false;
+      for (const Call call : kCalls) {
+        const double mrays = speed(kind, method, call);
+        std::ostringstream cell;
+        cell << std::fixed;
+        if (mrays > 0) cell << std::setprecision(3) << mrays;
+        if (mrays > 0 && best > 0) cell << " (" << std::setprecision(2) << mrays / best << ")";
+        line << std::setw(kCellWidth) << cell.str();
+        any |= mrays > 0;
+      }
+      if (any) out << line.str() << "\n";
+    }
+  }
+  out << "largest coefficient of variation of a row: " << std::lround(100 * largest_variation_)
+      << " %\n";
+}
+
+}  // namespace sobb::bench

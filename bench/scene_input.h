@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene: one array of vertices and one of indices that the library and Embree both read.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "flags.h"
+#include "sobb/scene.h"
+
+namespace sobb::bench {
+
+class SceneInput {
+ public:
+  explicit SceneInput(const Flags& flags);
+
+  const sobb_triangles& triangles() const { return triangles_; }
+  const sobb_scene_info& info() const { return info_; }
+  const sobb_view& view() const { return view_; }
+
+ private:
+  std::shared_ptr<sobb_scene> scene_;
+  std::vector<float> vertices_;
+  sobb_triangles triangles_{};
+  sobb_scene_info info_{};
+  sobb_view view_{};
+};
+
+}  // namespace sobb::bench

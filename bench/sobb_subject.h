@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library under test: one hierarchy, built, saved and traced through the C ABI.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "flags.h"
+#include "ray_sets.h"
+#include "scene_input.h"
+#include "stopwatch.h"
+#include "trace_output.h"
+#include "workers.h"
+
+namespace sobb::bench {
+
+/// Means over the rays of a set, by the single-ray kernel.
+struct WorkPerRay {
+  double nodes = 0;
+  double volumes = 0;
+  double blocks = 0;
+  double triangles = 0;
+};
+
+class SobbSubject {
+ public:
+  SobbSubject(const SceneInput& scene, Method method, const Flags& flags);
+
+  Method method() const { return method_; }
+  double build_seconds() const { return build_seconds_; }
+  sobb_info info() const;
+  void save(const std::string& path) const;
+
+  /// Traces the set into @p output, which has room, and returns the seconds that it took.
+  double trace(const RaySet& set, Call call, Workers& workers, TraceOutput& output) const;
+
+  WorkPerRay count_work(const RaySet& set) const;
+
+ private:
+  void trace_single(const RaySet& set, Workers& workers, TraceOutput& output) const;
+  void trace_packet(const RaySet& set, Workers& workers, TraceOutput& output) const;
+  void trace_array(const RaySet& set, TraceOutput& output) const;
+
+  Method method_;
+  uint32_t threads_;
+  Stopwatch clock_;
+  double build_seconds_ = 0;
+  std::unique_ptr<sobb_hierarchy, decltype(&sobb_release)> hierarchy_{nullptr, sobb_release};
+};
+
+}  // namespace sobb::bench

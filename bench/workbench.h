@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that the rows share, each part made when a row first needs it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "embree_peer.h"
+#include "flags.h"
+#include "ray_sets.h"
+#include "scene_input.h"
+#include "sobb_subject.h"
+#include "workers.h"
+
+namespace sobb::bench {
+
+class Workbench {
+ public:
+  explicit Workbench(const Flags& flags);
+  Workbench(const Workbench&) = delete;
+  Workbench& operator=(const Workbench&) = delete;
+  ~Workbench();
+
+  const Flags& flags() const { return flags_; }
+  const SceneInput& scene() const { return scene_; }
+  Workers& workers() { return workers_; }
+  EmbreeRays& embree_rays() { return embree_rays_; }
+  TraceOutput& output() { return output_; }
+
+  const SobbSubject& subject(Method method);
+  const EmbreePeer& peer(Method method);
+  const RaySet& rays(RayKind kind);
+  /// Counted once, in a pass of its own.
+  const WorkPerRay& work(RayKind kind, Method method);
+  /// The SOBB hierarchy as a file in a folder of its own that goes with the workbench.
+  const std::filesystem::path& saved_file();
+
+  // What has been made so far.
+  const std::map<Method, SobbSubject>& subjects() const { return subjects_; }
+  const std::map<Method, std::unique_ptr<EmbreePeer>>& peers() const { return peers_; }
+  const std::map<RayKind, RaySet>& ray_sets() const { return ray_sets_; }
+
+ private:
+  RaySet make_rays(RayKind kind);
+  Surface surface();
+
+  const Flags& flags_;
+  SceneInput scene_;
+  Workers workers_;
+  EmbreeRays embree_rays_;
+  TraceOutput output_;
+  std::map<Method, SobbSubject> subjects_;
+  std::map<Method, std::unique_ptr<EmbreePeer>> peers_;
+  std::map<RayKind, RaySet> ray_sets_;
+  std::map<std::pair<RayKind, Method>, WorkPerRay> work_;
+  std::filesystem::path saved_file_;
+};
+
+}  // namespace sobb::bench
