@@ -94,10 +94,12 @@ struct ClosestHit {
 
   explicit ClosestHit(const sobb_ray& ray) : limit(std::min(ray.tmax, FLT_MAX)) {}
 
-  void offer(const TriangleHit& hit, float tmin, uint32_t index) {
-    if (hit.t >= tmin && (hit.t < limit || (hit.t == limit && index < primitive))) {
-      *this = ClosestHit(hit, index);
-    }
+  // Takes a hit if it is in the interval and before the best. Returns whether it was taken.
+  bool offer(const TriangleHit& hit, float tmin, uint32_t index) {
+    const bool before = hit.t < limit || (hit.t == limit && index < primitive);
+    if (!(hit.t >= tmin) || !before) return false;
+    *this = ClosestHit(hit, index);
+    return true;
   }
 
   sobb_hit result() const {

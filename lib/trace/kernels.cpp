@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tracing kernels of every target, and the table that chooses among them.
+#include <optional>
+
+#include "base/highway_targets.h"
+#include "trace/tracer.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "trace/kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "trace/packet-inl.h"
+#include "trace/single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+// The result of a query as its caller stores it.
+void store(const ClosestHit& best, sobb_hit& hit) { hit = best.result(); }
+void store(const ClosestHit& best, uint8_t& occluded) {
+  occluded = best.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
+}
+void store_invalid(sobb_hit& hit) { hit = ClosestHit::missed(SOBB_INVALID); }
+void store_invalid(uint8_t& occluded) { occluded = SOBB_OCCLUDED_INVALID; }
+
+template <int W, bool kAxes, Query kQuery, class Result>
+uint64_t trace_rays(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
+                    sobb_count* counts) {
+  uint64_t invalid = 0;
+  for (uint64_t i = 0; i < count; ++i) {
+    if (counts != nullptr) counts[i] = {};
+    if (!is_valid(rays[i])) {
+      store_invalid(results[i]);
+      ++invalid;
+      continue;
+    }
+    ClosestHit best(rays[i]);
+    if (counts != nullptr) {
+      trace_ray<W, kAxes, kQuery>(tracer, rays[i], best, Counter{counts[i]});
+    } else {
+      trace_ray<W, kAxes, kQuery>(tracer, rays[i], best, NoCounter{});
+    }
+    store(best, results[i]);
+  }
+  return invalid;
+}
+
+template <Query kQuery, class Result>
+uint64_t trace(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
+               sobb_count* counts) {
+  if (tracer.width == 4) {
+    return tracer.axes_only ? trace_rays<4, true, kQuery>(tracer, rays, count, results, counts)
+                            : trace_rays<4, false, kQuery>(tracer, rays, count, results, counts);
+  }
+  return tracer.axes_only ? trace_rays<8, true, kQuery>(tracer, rays, count, results, counts)
+                          : trace_rays<8, false, kQuery>(tracer, rays, count, results, counts);
+}
+
+template <Query kQuery, class Result>
+uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_t mask, Result* results) {
+  std::optional<ClosestHit> best[kPacketSize];
+  uint32_t active = 0;
+  for (uint32_t left = mask; left != 0; left &= left - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(left));
+    if (is_valid(rays[i])) {
+      best[i].emplace(rays[i]);
+      active |= 1U << i;
+    } else {
+      store_invalid(results[i]);
+    }
+  }
+  if (tracer.width == 4) {
+    trace_packet<4, kQuery>(tracer, rays, active, best);
+  } else {
+    trace_packet<8, kQuery>(tracer, rays, active, best);
+  }
+  for (uint32_t left = active; left != 0; left &= left - 1) {
+    const auto i = static_cast<uint32_t>(std::countr_zero(left));
+    store(*best[i], results[i]);
+  }
+  return static_cast<uint64_t>(std::popcount(mask ^ active));
+}
+
+}  // namespace
+
+const TraceKernels& kernels() {
+  static constexpr TraceKernels kKernels = {
+      trace<Query::kClosest, sobb_hit>, trace<Query::kAny, uint8_t>,
+      trace_packet<Query::kClosest, sobb_hit>, trace_packet<Query::kAny, uint8_t>};
+  return kKernels;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sobb {
+
+Tracer::Tracer(const FileView& view)
+    : directions(make_direction_table(view.directions)),
+      centre{view.header->centre[0], view.header->centre[1], view.header->centre[2]},
+      radius(view.header->radius),
+      width(view.header->width),
+      axes_only(view.header->volume == SOBB_VOLUME_AABB),
+      nodes(view.nodes),
+      blocks(view.blocks.data()) {}
+
+const TraceKernels& trace_kernels(sobb_isa isa) {
+  return isa == SOBB_ISA_AVX2 ? N_AVX2::kernels() : N_SSE4::kernels();
+}
+
+}  // namespace sobb
+#endif

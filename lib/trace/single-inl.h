@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// One ray through the wide nodes, children nearest first. Included once for each Highway target.
+#if defined(SOBB_TRACE_SINGLE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_SINGLE_INL_H
+#undef SOBB_TRACE_SINGLE_INL_H
+#else
+#define SOBB_TRACE_SINGLE_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <utility>
+
+#include "trace/node_test-inl.h"
+#include "trace/triangle_filter-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// What a query is: the closest hit, or whether there is any.
+enum class Query { kClosest, kAny };
+
+// Counts a ray's work, or does nothing at no cost.
+struct NoCounter {
+  void add_node(uint32_t) {}
+  void add_leaf(uint32_t) {}
+};
+struct Counter {
+  sobb_count& count;
+  void add_node(uint32_t children) {
+    ++count.nodes;
+    count.volumes += children;
+  }
+  void add_leaf(uint32_t triangles) {
+    count.blocks += static_cast<uint32_t>(blocks_of(triangles));
+    count.triangles += triangles;
+  }
+};
+
+// The triangles of a leaf. Returns whether `best` changed.
+template <Query kQuery>
+HWY_INLINE bool test_leaf(const BlockRay& ray, const TriangleBlock* block, uint32_t triangles,
+                          float tmin, float scaled_limit, ClosestHit& best) {
+  bool found = false;
+  for (uint32_t first = 0; first < triangles; first += 4, ++block) {
+    for (uint32_t lanes = ray.filter(*block, scaled_limit); lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
+      TriangleHit hit;
+      if (!ray.test(*block, lane, hit)) continue;
+      found |= best.offer(hit, tmin, block->primitive[lane]);
+      if (kQuery == Query::kAny && found) return true;
+    }
+  }
+  return found;
+}
+
+// Pushes the children met but the nearest, furthest first, and returns the nearest's key.
+template <int W>
+HWY_INLINE StackKey push_but_nearest(const NodeHits<W>& hits, const Node<W>& node,
+                                     StackKey*& top) {
+  uint32_t mask = hits.mask;
+  const auto next = [&]() HWY_ATTR {
+    const auto child = static_cast<uint32_t>(std::countr_zero(mask));
+    mask &= mask - 1;
+    return hits.key(node, child);
+  };
+  StackKey nearest = next();
+  if (mask == 0) return nearest;
+  StackKey* const base = top;
+  do {
+    StackKey key = next();
+    if (key < nearest) std::swap(key, nearest);
+    StackKey* at = top++;
+    for (; at != base && at[-1] < key; --at) *at = at[-1];
+    *at = key;
+  } while (mask != 0);
+  return nearest;
+}
+
+template <int W, bool kAxes, Query kQuery, class CounterType>
+HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit& best,
+                          CounterType counter) {
+  const ScaledRay scaled(tracer, ray);
+  const BlockRay block_ray(ray, scaled);
+  RayTable table;
+  table.make(tracer.directions, scaled);
+  const auto* nodes = static_cast<const Node<W>*>(tracer.nodes);
+
+  StackKey stack[kMaxDepth * (W - 1) + 1];
+  StackKey* top = stack;
+  StackKey key = kRootKey;
+  float limit = scaled.scaled(best.limit);
+  for (;;) {
+    bool met = true;
+    while (met && !key_is_leaf(key)) {
+      const Node<W>& node = nodes[key_index(key)];
+      NodeHits<W> hits;
+      test_node<W, kAxes>(table, node, scaled.tmin, limit, hits);
+      counter.add_node(child_count(node));
+      met = hits.mask != 0;
+      if (met) key = push_but_nearest(hits, node, top);
+    }
+    if (met) {
+      counter.add_leaf(key_triangles(key));
+      if (test_leaf<kQuery>(block_ray, tracer.blocks + key_index(key), key_triangles(key),
+                            ray.tmin, limit, best)) {
+        if (kQuery == Query::kAny) return;
+        limit = scaled.scaled(best.limit);
+      }
+    }
+    const StackKey last = last_key(limit);
+    do {
+      if (top == stack) return;
+      key = *--top;
+    } while (key > last);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What tracing needs of a hierarchy, and its entry points by instruction set.
+#pragma once
+
+#include <cstdint>
+
+#include "bounds/direction_table.h"
+#include "format/view.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// Prepared once a hierarchy; borrowed from its image.
+struct Tracer {
+  DirectionTable directions;
+  float centre[3];
+  float radius;
+  uint32_t width;
+  bool axes_only;  // the volumes are AABBs
+  const void* nodes;
+  const TriangleBlock* blocks;
+
+  explicit Tracer(const FileView& view);
+};
+
+inline constexpr int kPacketSize = 16;
+
+// The kernels of one instruction set. Each returns how many rays were not valid. `counts` may be
+// null.
+struct TraceKernels {
+  uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
+                        sobb_count* counts);
+  uint64_t (*occluded)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                       uint8_t* occluded, sobb_count* counts);
+  // A packet: bit i of `mask`, below kPacketSize, is for ray i.
+  uint64_t (*intersect_packet)(const Tracer& tracer, const sobb_ray* rays, uint32_t mask,
+                               sobb_hit* hits);
+  uint64_t (*occluded_packet)(const Tracer& tracer, const sobb_ray* rays, uint32_t mask,
+                              uint8_t* occluded);
+};
+
+const TraceKernels& trace_kernels(sobb_isa isa);
+
+}  // namespace sobb
