@@ -2,10 +2,11 @@
 // See glb.h.
 #include "scene/glb.h"
 
+#include <bit>
 #include <cstdint>
-#include <cstring>
 
 #include "base/error.h"
+#include "scene/load_bytes.h"
 
 namespace sobb {
 namespace {
@@ -17,9 +18,7 @@ constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
 
 uint32_t word(std::string_view bytes, size_t offset) {
-  uint32_t value = 0;
-  for (size_t i = 0; i < 4; ++i) value |= uint32_t(uint8_t(bytes[offset + i])) << (8 * i);
-  return value;
+  return load_bytes<uint32_t>(&bytes[offset], std::endian::little);
 }
 
 }  // namespace

@@ -10,17 +10,14 @@
 #include <limits>
 
 #include "base/error.h"
+#include "scene/load_bytes.h"
 
 namespace sobb {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "buffers are read as they are");
-
 template <class T>
 T load(const char* from) {
-  T value;
-  std::memcpy(&value, from, sizeof value);
-  return value;
+  return load_bytes<T>(from, std::endian::little);
 }
 
 uint64_t component_size(int type) {

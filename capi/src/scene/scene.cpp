@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C interface of capi/include/sobb/scene.h.
+#include "sobb/scene.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <utility>
+
+#include "../guard.h"
+#include "scene/load.h"
+
+struct sobb_scene {
+  explicit sobb_scene(sobb::Scene loaded) : scene(std::move(loaded)) {}
+
+  const sobb::Scene scene;
+  std::atomic<uint64_t> references{1};
+};
+
+namespace {
+
+// Element `index` of an array of the scene's.
+template <class Element>
+const Element& element(const std::vector<Element>& array, uint64_t index, const char* what) {
+  if (index >= array.size()) {
+    sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "%s %llu of %zu", what,
+               static_cast<unsigned long long>(index), array.size());
+  }
+  return array[size_t(index)];
+}
+
+}  // namespace
+
+extern "C" {
+
+sobb_status sobb_scene_load(const char* source, const sobb_scene_options* options,
+                            sobb_scene** out) {
+  return sobb::guard([&] {
+    sobb::require(source, "source");
+    sobb::require(out, "out");
+    const sobb_scene_options known = sobb::read_options(options, "sobb_scene_options");
+    if (known.reserved != 0) {
+      sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "sobb_scene_options: reserved is not zero");
+    }
+    sobb::Scene scene = sobb::load_scene(source, known.views_path, known.memory_limit);
+    *out = std::make_unique<sobb_scene>(std::move(scene)).release();
+  });
+}
+
+sobb_scene* sobb_scene_retain(sobb_scene* scene) {
+  if (scene != nullptr) scene->references.fetch_add(1, std::memory_order_relaxed);
+  return scene;
+}
+
+void sobb_scene_release(sobb_scene* scene) {
+  if (scene == nullptr) return;
+  if (scene->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete scene;
+}
+
+sobb_status sobb_scene_get_info(const sobb_scene* scene, sobb_scene_info* info) {
+  return sobb::guard([&] {
+    sobb::require(scene, "scene");
+    const sobb::Scene& from = scene->scene;
+    sobb_scene_info known{};
+    known.default_view = from.default_view ? 1 : 0;
+    known.vertex_count = from.vertices.size() / 3;
+    known.triangle_count = from.indices.size() / 3;
+    known.degenerate_count = from.degenerate_count;
+    known.mesh_count = from.meshes.size();
+    known.view_count = from.views.size();
+    std::copy(from.bounds_min.begin(), from.bounds_min.end(), known.bounds_min);
+    std::copy(from.bounds_max.begin(), from.bounds_max.end(), known.bounds_max);
+    sobb::write_info(known, info, "sobb_scene_info");
+  });
+}
+
+sobb_status sobb_scene_triangles(const sobb_scene* scene, sobb_triangles* triangles) {
+  return sobb::guard([&] {
+    sobb::require(scene, "scene");
+    sobb_triangles known{};
+    known.vertices = scene->scene.vertices.data();
+    known.vertex_count = scene->scene.vertices.size() / 3;
+    known.vertex_stride = 3 * sizeof(float);
+    known.indices = scene->scene.indices.data();
+    known.triangle_count = scene->scene.indices.size() / 3;
+    sobb::write_info(known, triangles, "sobb_triangles");
+  });
+}
+
+sobb_status sobb_scene_mesh(const sobb_scene* scene, uint64_t index, sobb_mesh* mesh) {
+  return sobb::guard([&] {
+    sobb::require(scene, "scene");
+    sobb::require(mesh, "mesh");
+    const sobb::SceneMesh& from = element(scene->scene.meshes, index, "mesh");
+    *mesh = {from.name.c_str(), from.first_triangle, from.triangle_count};
+  });
+}
+
+sobb_status sobb_scene_view(const sobb_scene* scene, uint64_t index, sobb_view* view) {
+  return sobb::guard([&] {
+    sobb::require(scene, "scene");
+    sobb::require(view, "view");
+    *view = element(scene->scene.views, index, "view");
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Terrain: mountains, a height field of fractal noise.
+#include <algorithm>
+
+#include "scene/builtin_scenes.h"
+
+namespace sobb {
+namespace {
+
+constexpr double kHalf = 10;
+
+// Values in [-1, 1] at the points of a lattice, blended between with a quintic (K. Perlin,
+// Improving Noise, 2002).
+double noise(double x, double z, uint64_t seed) {
+  const double x0 = std::floor(x);
+  const double z0 = std::floor(z);
+  const auto lattice = [&](int64_t i, int64_t j) {
+    const uint64_t key = uint64_t(int64_t(x0) + i) * 0x9E3779B97F4A7C15 +
+                         uint64_t(int64_t(z0) + j) * 0xC2B2AE3D27D4EB4F + seed;
+    return double(Random::mix_bits(key) >> 11) * 0x1p-52 - 1;
+  };
+  const auto fade = [](double t) { return t * t * t * (t * (6 * t - 15) + 10); };
+  const double u = fade(x - x0);
+  const double v = fade(z - z0);
+  const double near = lattice(0, 0) + u * (lattice(1, 0) - lattice(0, 0));
+  const double far = lattice(0, 1) + u * (lattice(1, 1) - lattice(0, 1));
+  return near + v * (far - near);
+}
+
+// Ridges (1 - |noise|), finer ones weighted by the coarser, so that valleys stay smooth
+// (F. K. Musgrave, in Texturing and Modeling, 1994).
+double height(double x, double z) {
+  double sum = 0;
+  double weight = 1;
+  double amplitude = 1;
+  double frequency = 0.16;
+  for (uint64_t octave = 0; octave < 12; ++octave) {
+    const double value = noise(x * frequency + 31.7, z * frequency - 17.3, octave);
+    const double ridge = (1 - std::fabs(value)) * (1 - std::fabs(value));
+    sum += amplitude * weight * ridge;
+    weight = std::clamp(1.6 * ridge, 0.0, 1.0);
+    amplitude *= 0.48;
+    // Turned a little, lest the octaves' lattices coincide.
+    const double turned = 0.8 * x - 0.6 * z;
+    z = 0.6 * x + 0.8 * z;
+    x = turned;
+    frequency *= 2.03;
+  }
+  return 2.4 * sum - 2.4;
+}
+
+}  // namespace
+
+void make_terrain(PartsWriter& parts) {
+  const auto rows = uint64_t(std::sqrt(double(parts.left() / PartsWriter::kQuad)));
+  const uint64_t columns = parts.left() / PartsWriter::kQuad / rows;
+  parts.grid(rows, columns, [&](uint64_t i, uint64_t j) {
+    const double x = kHalf * (2 * double(j) / double(columns) - 1);
+    const double z = kHalf * (2 * double(i) / double(rows) - 1);
+    return Vec3{x, height(x, z), z};
+  });
+}
+
+}  // namespace sobb

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// See load.h.
+#include "scene/load.h"
+
+#include <string_view>
+#include <utility>
+
+#include "base/error.h"
+#include "scene/builtin.h"
+#include "scene/gltf.h"
+#include "scene/obj.h"
+#include "scene/off.h"
+#include "scene/ply.h"
+#include "scene/read_file.h"
+#include "scene/scene_writer.h"
+#include "scene/stl.h"
+#include "scene/views.h"
+
+namespace sobb {
+namespace {
+
+struct PathParts {
+  std::string folder;  // with its slash
+  std::string stem;
+  std::string ending;  // in lower case, without its dot
+};
+
+PathParts split_path(const std::string& path) {
+  PathParts parts;
+  const size_t name = path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1;
+  const size_t dot = path.rfind('.');
+  parts.folder = path.substr(0, name);
+  if (dot == std::string::npos || dot < name) {
+    parts.stem = path.substr(name);
+    return parts;
+  }
+  parts.stem = path.substr(name, dot - name);
+  for (const char c : path.substr(dot + 1)) {
+    parts.ending += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  }
+  return parts;
+}
+
+using TextFormat = void (*)(std::string_view bytes, const char* name, SceneWriter& writer);
+
+TextFormat text_format(const std::string& ending) {
+  if (ending == "obj") return read_obj;
+  if (ending == "ply") return read_ply;
+  if (ending == "stl") return read_stl;
+  if (ending == "off") return read_off;
+  return nullptr;
+}
+
+void load_builtin(const std::string& source, const char* views_path, uint64_t memory_limit,
+                  Scene& scene) {
+  const BuiltinName name = parse_builtin(source);
+  SceneWriter writer(source, memory_limit, scene);
+  std::vector<sobb_view> views = make_builtin(name, writer);
+  writer.finish();
+  if (views_path != nullptr) scene.views = read_views(views_path, name.scene);
+  if (scene.views.empty()) scene.views = std::move(views);
+}
+
+void load_file(const std::string& path, const char* views_path, uint64_t memory_limit,
+               Scene& scene) {
+  const PathParts parts = split_path(path);
+  const bool gltf = parts.ending == "gltf" || parts.ending == "glb";
+  const TextFormat format = text_format(parts.ending);
+  if (!gltf && format == nullptr) {
+    fail(SOBB_ERROR_SCENE_FORMAT,
+         "%s: unknown ending '%s'; known are .gltf, .glb, .obj, .ply, .stl, .off, and builtin:NAME",
+         path.c_str(), parts.ending.c_str());
+  }
+  SceneWriter writer(path, memory_limit, scene);
+  std::vector<GltfCamera> cameras;
+  {
+    const FileBytes file = read_file(path, writer.memory_left());
+    writer.hold(file.size);
+    if (gltf) {
+      cameras = read_gltf(file.view(), path, writer);
+    } else {
+      format(file.view(), path.c_str(), writer);
+    }
+  }
+  writer.finish();
+
+  if (views_path != nullptr) scene.views = read_views(views_path, parts.stem);
+  const std::string beside = parts.folder + "cameras.json";
+  if (scene.views.empty() && file_exists(beside)) scene.views = read_views(beside, parts.stem);
+  if (scene.views.empty()) scene.views = camera_views(cameras, half_diagonal(scene));
+  if (!scene.views.empty()) return;
+  scene.views.push_back(default_view(scene));
+  scene.default_view = true;
+}
+
+}  // namespace
+
+Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit) {
+  Scene scene;
+  if (is_builtin(source)) {
+    load_builtin(source, views_path, memory_limit, scene);
+  } else {
+    load_file(source, views_path, memory_limit, scene);
+  }
+  return scene;
+}
+
+}  // namespace sobb
