@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory that one call (and the hierarchy it returns) may take: limit, caller's allocator, peak.
+// The memory that one call (and the hierarchy it returns) may take: limit, caller's allocator,
+// peak.
 #pragma once
 
 #include <atomic>

@@ -23,16 +23,16 @@ class Scheduler {
   template <class Body>
   void for_each(uint64_t count, Body&& body) const {
     using Plain = std::remove_reference_t<Body>;
-    run(count, [](void* context, uint64_t i) { (*static_cast<Plain*>(context))(i); }, &body);
+    run(
+        count, [](void* context, uint64_t i) { (*static_cast<Plain*>(context))(i); }, &body);
   }
 
   // body(begin, end) over consecutive ranges of at most `grain` items that cover [0, count).
   // The ranges depend on `count` and `grain` alone.
   template <class Body>
   void for_ranges(uint64_t count, uint64_t grain, Body&& body) const {
-    for_each((count + grain - 1) / grain, [&](uint64_t range) {
-      body(range * grain, std::min(count, (range + 1) * grain));
-    });
+    for_each((count + grain - 1) / grain,
+             [&](uint64_t range) { body(range * grain, std::min(count, (range + 1) * grain)); });
   }
 
   // Runs body within a TBB arena of this scheduler's size (of one in serial mode and with a

@@ -12,11 +12,9 @@ BasisTable::BasisTable(const DirectionTable& table, std::pmr::memory_resource& m
     : count_(table.count),
       inverse_(size_t{kMaxDirections} * kMaxDirections * kMaxDirections,
                std::numeric_limits<float>::infinity(), &memory),
-      inverse_sine_(size_t{kMaxDirections} * kMaxDirections,
-                    std::numeric_limits<float>::infinity(), &memory) {
-  const auto direction = [&](uint32_t k) {
-    return Direction{table.x[k], table.y[k], table.z[k]};
-  };
+      inverse_sine_(size_t{kMaxDirections} * kMaxDirections, std::numeric_limits<float>::infinity(),
+                    &memory) {
+  const auto direction = [&](uint32_t k) { return Direction{table.x[k], table.y[k], table.z[k]}; };
   for (uint32_t i = 0; i < count_; ++i) {
     for (uint32_t j = 0; j < count_; ++j) {
       if (i == j) continue;

@@ -25,9 +25,7 @@ class BasisTable {
     return &inverse_[(i * kMaxDirections + j) * kMaxDirections];
   }
   // 1 / (1 - (n_i . n_j)^2), infinite for i = j; a row of kMaxDirections values over j.
-  const float* inverse_sine_squares(uint32_t i) const {
-    return &inverse_sine_[i * kMaxDirections];
-  }
+  const float* inverse_sine_squares(uint32_t i) const { return &inverse_sine_[i * kMaxDirections]; }
 
  private:
   uint32_t count_;

@@ -51,8 +51,8 @@ void fit(const DirectionTable& directions, const RelativePoint* points, uint64_t
                                hn::Mul(hn::Abs(nz), hn::Set(d, largest.z)));
     // The second term covers products that underflow.
     const auto error = hn::Add(hn::Mul(reach, hn::Set(d, 6 * 0x1p-24F)), hn::Set(d, 0x1p-140F));
-    const auto unused = hn::Eq(hn::Add(hn::Add(hn::Abs(nx), hn::Abs(ny)), hn::Abs(nz)),
-                               hn::Zero(d));
+    const auto unused =
+        hn::Eq(hn::Add(hn::Add(hn::Abs(nx), hn::Abs(ny)), hn::Abs(nz)), hn::Zero(d));
     hn::Store(hn::IfThenZeroElse(unused, hn::Sub(lower, error)), d, kdop.lower + k);
     hn::Store(hn::IfThenZeroElse(unused, hn::Add(upper, error)), d, kdop.upper + k);
   }
@@ -86,8 +86,8 @@ class Least {
     const float* inverse = table.inverse_determinants(i, j);
     const auto pair = hn::Set(d, gram.sum[i][j]);
     for (uint32_t l = 0; l < table.count(); l += hn::Lanes(d)) {
-      const auto sum = hn::Add(hn::Add(pair, hn::Load(d, gram.sum[j] + l)),
-                               hn::Load(d, gram.sum[i] + l));
+      const auto sum =
+          hn::Add(hn::Add(pair, hn::Load(d, gram.sum[j] + l)), hn::Load(d, gram.sum[i] + l));
       const auto area = hn::Mul(sum, hn::LoadU(d, inverse + l));
       const auto less = hn::Lt(area, area_);
       area_ = hn::IfThenElse(less, area, area_);
@@ -187,8 +187,8 @@ float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis) {
   const uint32_t i = basis_direction(basis, 0);
   const uint32_t j = basis_direction(basis, 1);
   const uint32_t l = basis_direction(basis, 2);
-  return 2 * ((gram.sum[i][j] + gram.sum[j][l] + gram.sum[i][l]) *
-              table.inverse_determinants(i, j)[l]);
+  return 2 *
+         ((gram.sum[i][j] + gram.sum[j][l] + gram.sum[i][l]) * table.inverse_determinants(i, j)[l]);
 }
 
 const BoundsKernels& bounds_kernels(sobb_isa isa) {

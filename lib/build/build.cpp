@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "base/error.h"
 #include "base/isa.h"
@@ -80,9 +81,9 @@ BuildSettings::BuildSettings(const sobb_build_options& options)
   if (volume == SOBB_VOLUME_AABB) k = 6;
 }
 
-Image build(const sobb_triangles& triangles, const BuildSettings& settings,
-            const Scheduler& scheduler, const std::shared_ptr<Memory>& memory, Progress& progress,
-            BuildTimes& times) {
+Built build(const sobb_triangles& triangles, const BuildSettings& settings,
+            const Scheduler& scheduler, const std::shared_ptr<Memory>& memory, Progress& progress) {
+  BuildTimes times;
   const auto start = Clock::now();
   progress.check(0, kTopologyEnd, 0);
   const Mesh mesh(triangles, scheduler);
@@ -98,10 +99,10 @@ Image build(const sobb_triangles& triangles, const BuildSettings& settings,
   const auto volume_start = Clock::now();
   const auto directions = default_directions(settings.k);
   ImageParts parts;
-  Image image = begin_image(memory,
-                            {settings.width, static_cast<uint32_t>(directions.size()),
-                             wide.node_count, wide.block_count},
-                            parts);
+  Image image = begin_image(
+      memory,
+      {settings.width, static_cast<uint32_t>(directions.size()), wide.node_count, wide.block_count},
+      parts);
   fill_header(summary, mesh.triangle_count(), settings, wide.depth, *parts.header);
   fill_record(summary, topology.root()->reference_count, settings, *parts.record);
   std::copy(directions.begin(), directions.end(), parts.directions.begin());
@@ -110,7 +111,9 @@ Image build(const sobb_triangles& triangles, const BuildSettings& settings,
   seal_image(image, scheduler);
   times.volume_ms = ms_since(volume_start);
   times.total_ms = ms_since(start);
-  return image;
+  const FileView view = {parts.header,    parts.directions, parts.nodes,
+                         wide.node_count, parts.blocks,     parts.record};
+  return {std::move(image), view, times};
 }
 
 }  // namespace sobb

@@ -8,6 +8,7 @@
 #include "base/scheduler.h"
 #include "build/progress.h"
 #include "format/image.h"
+#include "format/view.h"
 #include "sobb/sobb.h"
 
 namespace sobb {
@@ -33,9 +34,15 @@ struct BuildTimes {
   double total_ms = 0;
 };
 
+// A hierarchy: its bytes, and what lies where in them.
+struct Built {
+  Image image;
+  FileView view;
+  BuildTimes times;
+};
+
 // Errors as sobb_build() says.
-Image build(const sobb_triangles& triangles, const BuildSettings& settings,
-            const Scheduler& scheduler, const std::shared_ptr<Memory>& memory, Progress& progress,
-            BuildTimes& times);
+Built build(const sobb_triangles& triangles, const BuildSettings& settings,
+            const Scheduler& scheduler, const std::shared_ptr<Memory>& memory, Progress& progress);
 
 }  // namespace sobb

@@ -86,8 +86,8 @@ void split_box(const Corners& triangle, const Box& box, int axis, float position
     if (a[axis] <= position) low.add(corner);
     if (a[axis] >= position) high.add(corner);
     if ((a[axis] < position && b[axis] > position) || (a[axis] > position && b[axis] < position)) {
-      const double s = (static_cast<double>(position) - a[axis]) /
-                       (static_cast<double>(b[axis]) - a[axis]);
+      const double s =
+          (static_cast<double>(position) - a[axis]) / (static_cast<double>(b[axis]) - a[axis]);
       double cut[3];
       for (int k = 0; k < 3; ++k) cut[k] = a[k] + s * (static_cast<double>(b[k]) - a[k]);
       cut[axis] = position;

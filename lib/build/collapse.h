@@ -30,7 +30,7 @@ struct Part {
   uint64_t first_node = 0;   // of the file
   uint64_t first_block = 0;  // likewise
   uint64_t block_count = 0;
-  uint32_t depth = 0;        // nodes on the longest way down within the part
+  uint32_t depth = 0;  // nodes on the longest way down within the part
 
   explicit Part(std::pmr::memory_resource& memory) : nodes(&memory) {}
 };

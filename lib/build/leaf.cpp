@@ -6,7 +6,8 @@
 namespace sobb {
 namespace {
 
-// Relative to the centre: the difference of two floats is exact enough in double to be rounded once.
+// Relative to the centre: the difference of two floats is exact enough in double to be rounded
+// once.
 RelativePoint relative(const double point[3], const float centre[3]) {
   return {static_cast<float>(point[0] - centre[0]), static_cast<float>(point[1] - centre[1]),
           static_cast<float>(point[2] - centre[2])};
@@ -25,8 +26,7 @@ void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& dire
     int polygon_count = 0;
     if (reference.box == corners.box()) {
       for (; polygon_count < 3; ++polygon_count) {
-        std::copy(corners.at[polygon_count], corners.at[polygon_count] + 3,
-                  polygon[polygon_count]);
+        std::copy(corners.at[polygon_count], corners.at[polygon_count] + 3, polygon[polygon_count]);
       }
     } else {
       polygon_count = clip_to_box(corners, reference.box, polygon);

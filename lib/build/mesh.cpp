@@ -107,7 +107,8 @@ Mesh::Mesh(const sobb_triangles& triangles, const Scheduler& scheduler)
   if (vertices_ == nullptr) fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
   if (indices_ == nullptr) fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: indices is NULL");
   if (stride_ < sizeof(Point) || stride_ % sizeof(float) != 0) {
-    fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: vertex_stride is %llu, not a multiple of 4 from 12",
+    fail(SOBB_ERROR_INVALID_ARGUMENT,
+         "triangles: vertex_stride is %llu, not a multiple of 4 from 12",
          static_cast<llu>(stride_));
   }
   scheduler.for_ranges(triangle_count_, kGrain, [&](uint64_t begin, uint64_t end) {

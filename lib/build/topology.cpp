@@ -36,8 +36,8 @@ Box to_box(const RTCBuildPrimitive& primitive) {
 }
 
 void to_bounds(const Box& box, RTCBounds& bounds) {
-  bounds = {box.lower[0], box.lower[1], box.lower[2], 0, box.upper[0], box.upper[1], box.upper[2],
-            0};
+  bounds = {box.lower[0], box.lower[1], box.lower[2], 0,
+            box.upper[0], box.upper[1], box.upper[2], 0};
 }
 
 RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
@@ -47,9 +47,12 @@ RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
 
 RTCBuildQuality to_embree(sobb_quality quality) {
   switch (quality) {
-    case SOBB_QUALITY_LOW: return RTC_BUILD_QUALITY_LOW;
-    case SOBB_QUALITY_HIGH: return RTC_BUILD_QUALITY_HIGH;
-    default: return RTC_BUILD_QUALITY_MEDIUM;
+    case SOBB_QUALITY_LOW:
+      return RTC_BUILD_QUALITY_LOW;
+    case SOBB_QUALITY_HIGH:
+      return RTC_BUILD_QUALITY_HIGH;
+    default:
+      return RTC_BUILD_QUALITY_MEDIUM;
   }
 }
 

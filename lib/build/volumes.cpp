@@ -55,7 +55,7 @@ class VolumeMaker {
     for (size_t at = part.nodes.size(); at-- > 0;) {
       const WideNode& wide = part.nodes[at];
       Bounded leaf[kMaxWidth];
-      const Bounded* child[kMaxWidth];
+      const Bounded* child[kMaxWidth] = {};
       for (uint32_t i = 0; i < wide.child_count; ++i) {
         if (wide.child[i]->is_leaf) {
           make_leaf(*static_cast<const LeafNode*>(wide.child[i]), wide.index[i], leaf[i]);

@@ -47,10 +47,10 @@ HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], ui
   const ChildFloats<W> d;
   const uint32_t falls = std::bit_cast<uint32_t>(table.reciprocal[direction]) >> 31;
   const V r = hn::Set(d, table.reciprocal[direction]);
-  near = hn::Max(near, hn::MulAdd(hn::Load(d, slab[falls] + first), r,
-                                  hn::Set(d, table.near[direction])));
-  far = hn::Min(far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r,
-                                hn::Set(d, table.far[direction])));
+  near = hn::Max(
+      near, hn::MulAdd(hn::Load(d, slab[falls] + first), r, hn::Set(d, table.near[direction])));
+  far = hn::Min(
+      far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r, hn::Set(d, table.far[direction])));
 }
 
 // The same with a direction of its own for each child.
@@ -97,8 +97,8 @@ HWY_INLINE void test_node(const RayTable& table, const Node<W>& node, float tmin
     const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
     const auto leaf = hn::And(hn::ShiftRight<9>(meta), hn::Set(du, kLeafBit >> 9));
     const auto triangles = hn::And(meta, hn::Set(du, kTriangleMask));
-    const auto distance = hn::And(hn::ShiftLeft<1>(hn::BitCast(du, near)),
-                                  hn::Set(du, ~kKeyMetaMask));
+    const auto distance =
+        hn::And(hn::ShiftLeft<1>(hn::BitCast(du, near)), hn::Set(du, ~kKeyMetaMask));
     hn::Store(hn::Or(distance, hn::Or(leaf, triangles)), du, hits.key_high + first);
   }
   hits.mask &= (1U << child_count(node)) - 1;

@@ -20,8 +20,8 @@ sobb_hit brute_force_ray(const Mesh& mesh, const sobb_ray& ray) {
       vertex[2][i] = point.z;
     }
     TriangleHit hit;
-    if (intersect_triangle(triangle_ray, vertex[triangle_ray.axis[0]],
-                           vertex[triangle_ray.axis[1]], vertex[triangle_ray.axis[2]], hit)) {
+    if (intersect_triangle(triangle_ray, vertex[triangle_ray.axis[0]], vertex[triangle_ray.axis[1]],
+                           vertex[triangle_ray.axis[2]], hit)) {
       best.offer(hit, ray.tmin, static_cast<uint32_t>(triangle));
     }
   }

@@ -169,9 +169,8 @@ HWY_INLINE void trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_
       if (test_leaf<kQuery>(*packet.block_ray[i], tracer.blocks + key_index(entry.key),
                             key_triangles(entry.key), rays[i].tmin, packet.limit[i], *best[i])) {
         // An occluded ray is done: no distance is before a negative limit.
-        packet.limit[i] = kQuery == Query::kAny
-                              ? -1.0F
-                              : static_cast<float>(best[i]->limit * packet.scale[i]);
+        packet.limit[i] =
+            kQuery == Query::kAny ? -1.0F : static_cast<float>(best[i]->limit * packet.scale[i]);
       }
     }
   }

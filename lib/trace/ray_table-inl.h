@@ -10,8 +10,8 @@
 //                          widened interval still holds the point)
 //   the products and sums below   5 u |o| + 4 u R
 //   the triangle test's own rounding of vertices and t   3.5 u (|o| + R)  (triangle_test.h)
-// So near = p_near r + (-n.o r - e |r|) and far = p_far r + (-n.o r + e |r|): the careful test costs
-// what the careless one does. The idea is T. Ize's, "Robust BVH Ray Traversal" (2013).
+// So near = p_near r + (-n.o r - e |r|) and far = p_far r + (-n.o r + e |r|): the careful test
+// costs what the careless one does. The idea is T. Ize's, "Robust BVH Ray Traversal" (2013).
 #if defined(SOBB_TRACE_RAY_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_RAY_TABLE_INL_H
 #undef SOBB_TRACE_RAY_TABLE_INL_H

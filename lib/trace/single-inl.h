@@ -60,8 +60,7 @@ HWY_INLINE bool test_leaf(const BlockRay& ray, const TriangleBlock* block, uint3
 
 // Pushes the children met but the nearest, furthest first, and returns the nearest's key.
 template <int W>
-HWY_INLINE StackKey push_but_nearest(const NodeHits<W>& hits, const Node<W>& node,
-                                     StackKey*& top) {
+HWY_INLINE StackKey push_but_nearest(const NodeHits<W>& hits, const Node<W>& node, StackKey*& top) {
   uint32_t mask = hits.mask;
   const auto next = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
@@ -106,8 +105,8 @@ HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit&
     }
     if (met) {
       counter.add_leaf(key_triangles(key));
-      if (test_leaf<kQuery>(block_ray, tracer.blocks + key_index(key), key_triangles(key),
-                            ray.tmin, limit, best)) {
+      if (test_leaf<kQuery>(block_ray, tracer.blocks + key_index(key), key_triangles(key), ray.tmin,
+                            limit, best)) {
         if (kQuery == Query::kAny) return;
         limit = scaled.scaled(best.limit);
       }

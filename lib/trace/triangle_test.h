@@ -108,9 +108,7 @@ struct ClosestHit {
   }
 
   // The result of a ray that hit nothing (SOBB_MISS) or is not valid (SOBB_INVALID).
-  static sobb_hit missed(uint32_t why) {
-    return {INFINITY, 0, 0, why, SOBB_MISS, SOBB_MISS};
-  }
+  static sobb_hit missed(uint32_t why) { return {INFINITY, 0, 0, why, SOBB_MISS, SOBB_MISS}; }
 
  private:
   ClosestHit(const TriangleHit& hit, uint32_t index)

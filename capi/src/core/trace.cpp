@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tracing: arrays, packets, single rays, and the oracle.
+#include <algorithm>
+#include <atomic>
+
+#include "../guard.h"
+#include "base/isa.h"
+#include "base/scheduler.h"
+#include "hierarchy.h"
+#include "trace/oracle.h"
+
+using sobb::guard;
+using sobb::kPacketSize;
+using sobb::require;
+
+namespace {
+
+// Rays a task: enough to drown its cost, few enough to balance rays that differ.
+constexpr uint64_t kGrain = 1024;
+
+sobb_trace_options read_trace_options(const sobb_trace_options* options) {
+  const sobb_trace_options known = sobb::read_options(options, "trace options");
+  if ((known.flags & ~static_cast<uint32_t>(SOBB_TRACE_COHERENT)) != 0) {
+    sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "trace options: flags are %#x", known.flags);
+  }
+  return known;
+}
+
+// An array in packets of consecutive rays.
+template <class TracePacket>
+uint64_t trace_packets(uint64_t count, const TracePacket& trace_packet) {
+  uint64_t invalid = 0;
+  for (uint64_t first = 0; first < count; first += kPacketSize) {
+    const uint64_t size = std::min<uint64_t>(kPacketSize, count - first);
+    invalid += trace_packet(first, (1U << size) - 1);
+  }
+  return invalid;
+}
+
+// Checks the arguments of an array call, shares the array among threads, adds up the invalid rays.
+template <class Result, class Trace, class TracePacket>
+void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
+                 Result* results, const sobb_trace_options* options,
+                 Trace(sobb::TraceKernels::*trace), TracePacket(sobb::TraceKernels::*packet)) {
+  require(hierarchy, "hierarchy");
+  const sobb_trace_options known = read_trace_options(options);
+  const sobb::TraceKernels& kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
+  if (count != 0) {
+    require(rays, "rays");
+    require(results, "results");
+  }
+  const bool packets = (known.flags & SOBB_TRACE_COHERENT) != 0 && known.counts == nullptr;
+  const sobb::Scheduler scheduler(known.threads, known.scheduler);
+  std::atomic<uint64_t> invalid{0};
+  scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
+    if (packets) {
+      invalid += trace_packets(end - begin, [&](uint64_t first, uint32_t mask) {
+        return (kernels.*packet)(hierarchy->tracer, rays + begin + first, mask,
+                                 results + begin + first);
+      });
+    } else {
+      sobb_count* counts = known.counts == nullptr ? nullptr : known.counts + begin;
+      invalid +=
+          (kernels.*trace)(hierarchy->tracer, rays + begin, end - begin, results + begin, counts);
+    }
+  });
+  if (known.invalid_rays != nullptr) *known.invalid_rays = invalid;
+}
+
+void check_packet(const sobb_hierarchy* hierarchy, const void* rays, uint32_t mask,
+                  const void* results) {
+  require(hierarchy, "hierarchy");
+  require(rays, "rays");
+  require(results, "results");
+  if (mask >> kPacketSize != 0) {
+    sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "mask is %#x, a packet has %d rays", mask, kPacketSize);
+  }
+}
+
+}  // namespace
+
+extern "C" {
+
+sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
+                           sobb_hit* hits, const sobb_trace_options* options) {
+  return guard([&] {
+    trace_array(hierarchy, rays, count, hits, options, &sobb::TraceKernels::intersect,
+                &sobb::TraceKernels::intersect_packet);
+  });
+}
+
+sobb_status sobb_occluded(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
+                          uint8_t* occluded, const sobb_trace_options* options) {
+  return guard([&] {
+    trace_array(hierarchy, rays, count, occluded, options, &sobb::TraceKernels::occluded,
+                &sobb::TraceKernels::occluded_packet);
+  });
+}
+
+sobb_status sobb_intersect1(const sobb_hierarchy* hierarchy, const sobb_ray* ray, sobb_hit* hit) {
+  return guard([&] {
+    check_packet(hierarchy, ray, 1, hit);
+    hierarchy->kernels->intersect(hierarchy->tracer, ray, 1, hit, nullptr);
+  });
+}
+
+sobb_status sobb_occluded1(const sobb_hierarchy* hierarchy, const sobb_ray* ray,
+                           uint8_t* occluded) {
+  return guard([&] {
+    check_packet(hierarchy, ray, 1, occluded);
+    hierarchy->kernels->occluded(hierarchy->tracer, ray, 1, occluded, nullptr);
+  });
+}
+
+sobb_status sobb_intersect_packet(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
+                                  uint32_t mask, sobb_hit* hits) {
+  return guard([&] {
+    check_packet(hierarchy, rays, mask, hits);
+    hierarchy->kernels->intersect_packet(hierarchy->tracer, rays, mask, hits);
+  });
+}
+
+sobb_status sobb_occluded_packet(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
+                                 uint32_t mask, uint8_t* occluded) {
+  return guard([&] {
+    check_packet(hierarchy, rays, mask, occluded);
+    hierarchy->kernels->occluded_packet(hierarchy->tracer, rays, mask, occluded);
+  });
+}
+
+sobb_status sobb_brute_force(const sobb_triangles* triangles, const sobb_ray* rays, uint64_t count,
+                             sobb_hit* hits, const sobb_trace_options* options) {
+  return guard([&] {
+    require(triangles, "triangles");
+    if (count != 0) {
+      require(rays, "rays");
+      require(hits, "hits");
+    }
+    const sobb_triangles input = sobb::read_options(triangles, "triangles");
+    const sobb_trace_options known = read_trace_options(options);
+    const sobb::Scheduler scheduler(known.threads, known.scheduler);
+    const sobb::Mesh mesh(input, scheduler);
+    const uint64_t invalid = sobb::brute_force(mesh, rays, count, hits, scheduler);
+    if (known.invalid_rays != nullptr) *known.invalid_rays = invalid;
+  });
+}
+
+}  // extern "C"
