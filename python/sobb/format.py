@@ -29,7 +29,7 @@ header_dtype = np.dtype(
         ("centre", "<f4", 3),
         ("radius", "<f4"),
         ("triangle_count", "<u8"),
-        ("reserved1", "<u8", 3),
+        ("reserved1", "<u8", 5),
     ]
 )
 

@@ -63,11 +63,16 @@ def diffuse(points: SurfacePoints, seed: int | Sequence[int]) -> np.ndarray:
     The same points and seed give the same rays. Origins are lifted off the surface by
     points.epsilon. Returns ray_dtype (n,).
     """
+    return bounces(points, np.random.default_rng(seed).random((len(points), 2), np.float32))
+
+
+def bounces(points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
+    """The same from numbers of the caller's, float32 (n, 2) in [0, 1), evenly spread ones for
+    instance."""
     # A point on the unit sphere around the tip of the normal: the sum has the cosine's density.
-    random = np.random.default_rng(seed).random((2, len(points)), np.float32)
-    z = 1 - 2 * random[0]
+    z = 1 - 2 * uniform[:, 0]
     radius = np.sqrt(np.maximum(1 - z * z, 0))
-    angle = np.float32(2 * math.pi) * random[1]
+    angle = np.float32(2 * math.pi) * uniform[:, 1]
     sphere = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)
     directions = points.normal + np.float32(0.999) * sphere  # never zero
     return make_rays(points.lifted(), normalised(directions))

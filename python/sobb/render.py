@@ -17,12 +17,14 @@ Progress = Callable[[float], None]
 _SAMPLES = 3  # a pixel, in each direction
 _BOUNCES = 2  # ambient rays a sample
 _BAND = 24 * _SAMPLES  # rows of samples traced at once: whole tiles, whole pixels
-_REACH = 0.2  # how far ambient rays go, in diagonals of the bounds
+_REACH = 0.1  # how far ambient rays go, in diagonals of the bounds
 _SEED = 1
+# Steps of an evenly spread sequence of points (M. Roberts, R2, 2018): powers of 1/plastic ratio.
+_R2 = np.array([0.7548776662466927, 0.5698402909980532])
 
 # Linear light.
-_CLAY = np.array([0.62, 0.55, 0.47], np.float32)
-_SKY = np.array([0.86, 0.95, 1.1], np.float32)
+_CLAY = np.array([0.64, 0.54, 0.43], np.float32)
+_SKY = np.array([0.8, 0.95, 1.2], np.float32)
 _GROUND = np.array([0.5, 0.42, 0.36], np.float32)
 _KEY = np.array([1.0, 0.93, 0.82], np.float32)
 _HORIZON = np.array([0.78, 0.83, 0.88], np.float32)
@@ -41,14 +43,25 @@ def shaded(
     picture = np.empty((height, width, 3), np.float32)
     for top in range(0, down, _BAND):
         rows = min(_BAND, down - top)
-        pixels = make.tile_order(across, rows)
+        pixels = make.tile_order(across, rows) + top * across
+        rays = make.through_pixels(view, across, down, pixels)
         samples = np.empty((rows * across, 3), np.float32)
-        rays = make.through_pixels(view, across, down, pixels + top * across)
-        samples[pixels] = shader.colours(rays, seed=top)
+        samples[pixels - top * across] = shader.colours(rays, _uniform(pixels, across))
         grid = samples.reshape(rows // _SAMPLES, _SAMPLES, width, _SAMPLES, 3)
         picture[top // _SAMPLES : (top + rows) // _SAMPLES] = grid.mean(axis=(1, 3))
         progress((top + rows) / down)
     return to_srgb(picture)
+
+
+def _uniform(samples: np.ndarray, across: int) -> np.ndarray:
+    """Two numbers in [0, 1) for each sample (y * across + x), (n, 2): evenly spread over those of a
+    pixel, random from pixel to pixel."""
+    y, x = np.divmod(samples, across)
+    pixel = y // _SAMPLES * (across // _SAMPLES) + x // _SAMPLES
+    first = int(pixel.min())
+    shift = np.random.default_rng((_SEED, first)).random((int(pixel.max()) - first + 1, 2))
+    place = y % _SAMPLES * _SAMPLES + x % _SAMPLES
+    return shift[pixel - first] + place[:, None] * _R2
 
 
 def work(hierarchy: Hierarchy, view: View, width: int, height: int) -> np.ndarray:
@@ -74,34 +87,38 @@ class _Shader:
         right = np.cross(forward, up)
         self._up = up
         # Over the photographer's left shoulder.
-        self._key = normalised((-0.6 * forward - 0.45 * right + 0.65 * up)[None])[0]
+        self._key = normalised((-0.4 * forward - 0.6 * right + 0.65 * up)[None])[0]
 
-    def colours(self, rays: np.ndarray, seed: int) -> np.ndarray:
-        """Linear light along rays (n,): float32 (n, 3)."""
+    def colours(self, rays: np.ndarray, uniform: np.ndarray) -> np.ndarray:
+        """Linear light along rays (n,): float32 (n, 3). `uniform` (n, 2) spreads what they see."""
         hits = self._hierarchy.intersect(rays, coherent=True)
         hit = is_hit(hits)
         colours = np.empty((len(rays), 3), np.float32)
         colours[~hit] = self._background(rays["direction"][~hit])
-        colours[hit] = self._shade(self._surface.points(rays, hits), rays[hit], seed)
+        points = self._surface.points(rays, hits)
+        colours[hit] = self._shade(points, rays["direction"][hit], uniform[hit])
         return colours
 
     def _background(self, directions: np.ndarray) -> np.ndarray:
         height = np.clip(directions @ self._up * 0.8 + 0.5, 0, 1)[:, None]
         return _HORIZON + (_ZENITH - _HORIZON) * height
 
-    def _shade(self, points: SurfacePoints, rays: np.ndarray, seed: int) -> np.ndarray:
-        open_sky = self._openness(points, seed)[:, None]
+    def _shade(
+        self, points: SurfacePoints, directions: np.ndarray, uniform: np.ndarray
+    ) -> np.ndarray:
+        open_sky = self._openness(points, uniform)[:, None]
         upward = (0.5 + 0.5 * points.normal @ self._up)[:, None]
         ambient = (_GROUND + (_SKY - _GROUND) * upward) * open_sky
         key = self._key_light(points)[:, None] * _KEY
-        facing = -np.einsum("ij,ij->i", points.normal, rays["direction"])[:, None]
-        return _CLAY * (0.62 * ambient + 0.75 * key + 0.12 * facing * open_sky)
+        facing = -np.einsum("ij,ij->i", points.normal, directions)[:, None]
+        return _CLAY * (0.5 * ambient + 0.9 * key + 0.1 * facing * open_sky)
 
-    def _openness(self, points: SurfacePoints, seed: int) -> np.ndarray:
+    def _openness(self, points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
         """The share of ambient rays that leave each point without meeting anything in reach."""
         free = np.zeros(len(points), np.float32)
         for bounce in range(_BOUNCES):
-            rays = make.diffuse(points, seed=(_SEED, seed, bounce))
+            spread = (uniform + bounce * _SAMPLES**2 * _R2) % 1
+            rays = make.bounces(points, spread.astype(np.float32))
             rays["tmax"] = self._reach
             free += self._hierarchy.occluded(rays) == 0
         return free / _BOUNCES
