@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sobb_bench: exit code 0 when all rows ran and our hits agree, 1 when not, 2 for wrong usage.
+// sobb_bench. Exit code: 0 when all rows ran and our hits agree, 1 when not, 2 for wrong usage.
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -19,6 +19,7 @@ using namespace sobb::bench;
 int run(const Flags& flags) {
   std::vector<std::string> arguments = flags.benchmark_arguments;
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   int argc = static_cast<int>(argv.size());
   argv.push_back(nullptr);
@@ -36,9 +37,11 @@ int run(const Flags& flags) {
   Reporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   std::cout << std::flush;
-  // A row that failed has nothing to verify with, and may fail the same way again.
-  if (reporter.any_failed() || !verify(workbench, std::cerr)) return 1;
-  return 0;
+  if (!reporter.failure().empty()) {
+    std::cerr << "sobb_bench: " << reporter.failure() << "\n";
+    return 1;
+  }
+  return verify(workbench, std::cerr) ? 0 : 1;
 }
 
 }  // namespace

@@ -28,7 +28,9 @@ void Reporter::ReportRuns(const std::vector<Run>& runs) {
 }
 
 void Reporter::remember(const Run& run) {
-  any_failed_ |= run.error_occurred;
+  if (run.error_occurred && failure_.empty()) {
+    failure_ = run.run_name.function_name + ": " + run.error_message;
+  }
   const auto speed = run.counters.find("Mrays/s");
   if (run.error_occurred || speed == run.counters.end()) return;
   // Without repetitions there is no aggregate, and the single run is the median.
@@ -85,6 +87,7 @@ void Reporter::print_ratios(std::ostream& out) const {
       if (any) out << line.str() << "\n";
     }
   }
+  if (largest_variation_ == 0) return;  // one repetition
   out << "largest coefficient of variation of a row: " << std::lround(100 * largest_variation_)
       << " %\n";
 }

@@ -23,7 +23,8 @@ class Reporter : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
   void Finalize() override;
 
-  bool any_failed() const { return any_failed_; }
+  /// The first row that failed, with its message; empty if none did.
+  const std::string& failure() const { return failure_; }
 
  private:
   void remember(const Run& run);
@@ -33,7 +34,7 @@ class Reporter : public benchmark::BenchmarkReporter {
 
   benchmark::BenchmarkReporter& display_;
   bool on_console_;
-  bool any_failed_ = false;
+  std::string failure_;
   std::map<std::string, double> mrays_;  // medians by row name
   double largest_variation_ = 0;
 };

@@ -20,18 +20,18 @@ inline constexpr std::array kSubjects{Method::kAabb, Method::kSobb};
 inline constexpr std::array kPeers{Method::kEmbreeMedium, Method::kEmbreeHigh};
 
 inline std::string name_of(RayKind kind) {
-  constexpr std::array names{"primary", "shadow", "diffuse", "random"};
-  return names[static_cast<size_t>(kind)];
+  constexpr std::array kNames{"primary", "shadow", "diffuse", "random"};
+  return kNames[static_cast<size_t>(kind)];
 }
 
 inline std::string name_of(Call call) {
-  constexpr std::array names{"single", "packet", "array"};
-  return names[static_cast<size_t>(call)];
+  constexpr std::array kNames{"single", "packet", "array"};
+  return kNames[static_cast<size_t>(call)];
 }
 
 inline std::string name_of(Method method) {
-  constexpr std::array names{"aabb", "sobb", "embree_medium", "embree_high"};
-  return names[static_cast<size_t>(method)];
+  constexpr std::array kNames{"aabb", "sobb", "embree_medium", "embree_high"};
+  return kNames[static_cast<size_t>(method)];
 }
 
 inline std::string row_name(RayKind kind, Method method, Call call) {

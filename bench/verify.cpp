@@ -2,7 +2,9 @@
 // Compares hits: ours with ours bit by bit, ours with Embree's by count.
 #include "verify.h"
 
-#include <cstring>
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <optional>
 
 namespace sobb::bench {
@@ -10,11 +12,17 @@ namespace {
 
 constexpr size_t kEqual = static_cast<size_t>(-1);
 
+/// Its bytes, so that floats compare by bits.
+template <typename T>
+auto bits(const T& value) {
+  return std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
+}
+
 /// The first element whose bits differ, or kEqual.
 template <typename T>
 size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
   for (size_t i = 0; i < a.size(); ++i) {
-    if (std::memcmp(&a[i], &b[i], sizeof(T)) != 0) return i;
+    if (bits(a[i]) != bits(b[i])) return i;
   }
   return kEqual;
 }
