@@ -171,7 +171,7 @@ BasisChoice choose(const BasisTable& table, const Gram& gram, sobb_strategy stra
 
 }  // namespace
 
-const BoundsKernels& kernels() {
+const BoundsKernels& target_bounds_kernels() {
   static constexpr BoundsKernels kKernels = {fit, add_to_gram, choose};
   return kKernels;
 }
@@ -192,7 +192,7 @@ float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis) {
 }
 
 const BoundsKernels& bounds_kernels(sobb_isa isa) {
-  return isa == SOBB_ISA_AVX2 ? N_AVX2::kernels() : N_SSE4::kernels();
+  return isa == SOBB_ISA_AVX2 ? N_AVX2::target_bounds_kernels() : N_SSE4::target_bounds_kernels();
 }
 
 }  // namespace sobb

@@ -86,7 +86,7 @@ uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_t mask,
 
 }  // namespace
 
-const TraceKernels& kernels() {
+const TraceKernels& target_trace_kernels() {
   static constexpr TraceKernels kKernels = {
       trace<Query::kClosest, sobb_hit>, trace<Query::kAny, uint8_t>,
       trace_packet<Query::kClosest, sobb_hit>, trace_packet<Query::kAny, uint8_t>};
@@ -110,7 +110,7 @@ Tracer::Tracer(const FileView& view)
       blocks(view.blocks.data()) {}
 
 const TraceKernels& trace_kernels(sobb_isa isa) {
-  return isa == SOBB_ISA_AVX2 ? N_AVX2::kernels() : N_SSE4::kernels();
+  return isa == SOBB_ISA_AVX2 ? N_AVX2::target_trace_kernels() : N_SSE4::target_trace_kernels();
 }
 
 }  // namespace sobb
