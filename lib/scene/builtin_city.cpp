@@ -91,7 +91,8 @@ void make_city(PartsWriter& parts) {
     const Vec3 middle{-kHalf + pitch * (double(i % rows) + 0.5), 0,
                       -kHalf + pitch * (double(i / rows) + 0.5)};
     const double far = length(middle) / kHalf;  // towers in the middle, houses at the edge
-    const double height = pitch * random.uniform(0.5, 1.6) * (0.6 + 1.8 / (1 + 4 * far * far));
+    const double height =
+        std::min(pitch, 3.0) * random.uniform(0.5, 1.6) * (0.6 + 1.8 / (1 + 4 * far * far));
     const uint64_t boxes = parts.left() / PartsWriter::kBox / (rows * rows - i);
     if (boxes > 0) write_building(parts, random, middle, 0.36 * pitch, height, boxes);
   }

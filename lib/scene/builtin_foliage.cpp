@@ -64,7 +64,7 @@ void write_tree(PartsWriter& parts, Random& random, Vec3 foot, double height, ui
 
   const uint64_t wood = (branches + 1) * each;
   const uint64_t leaves = budget > wood ? (budget - wood) / PartsWriter::kQuad : 0;
-  const double size = std::min(0.2, 2.2 / std::sqrt(double(leaves + 1))) * height * 0.45;
+  const double size = std::min(0.2, 3.6 / std::sqrt(double(leaves + 1))) * height * 0.45;
   for (uint64_t i = 0; i < leaves; ++i) {
     const double t = random.uniform();
     const Branch& branch = made[random.below(made.size())];

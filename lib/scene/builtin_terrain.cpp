@@ -39,21 +39,27 @@ double height(double x, double z) {
     const double ridge = (1 - std::fabs(value)) * (1 - std::fabs(value));
     sum += amplitude * weight * ridge;
     weight = std::clamp(1.6 * ridge, 0.0, 1.0);
-    amplitude *= 0.48;
+    amplitude *= 0.45;
     // Turned a little, lest the octaves' lattices coincide.
     const double turned = 0.8 * x - 0.6 * z;
     z = 0.6 * x + 0.8 * z;
     x = turned;
     frequency *= 2.03;
   }
-  return 2.4 * sum - 2.4;
+  return 2.2 * sum - 2.2;
 }
 
 }  // namespace
 
 void make_terrain(PartsWriter& parts) {
-  const auto rows = uint64_t(std::sqrt(double(parts.left() / PartsWriter::kQuad)));
-  const uint64_t columns = parts.left() / PartsWriter::kQuad / rows;
+  // The nearly square grid that spends the most.
+  const uint64_t quads = parts.left() / PartsWriter::kQuad;
+  const auto root = uint64_t(std::sqrt(double(quads)));
+  uint64_t rows = root;
+  for (uint64_t i = root; i * 20 > root * 19; --i) {
+    if (quads % i < quads % rows) rows = i;
+  }
+  const uint64_t columns = quads / rows;
   parts.grid(rows, columns, [&](uint64_t i, uint64_t j) {
     const double x = kHalf * (2 * double(j) / double(columns) - 1);
     const double z = kHalf * (2 * double(i) / double(rows) - 1);

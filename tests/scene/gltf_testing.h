@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF files made in the tests.
+#pragma once
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/gltf.h"
+#include "scene/reader_testing.h"
+
+namespace sobb::gltf_testing {
+
+using nlohmann::json;
+
+template <class T>
+std::string raw(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+enum Component { kByte = 5120, kUbyte, kShort, kUshort, kUint = 5125, kFloat = 5126 };
+
+// A document with one buffer. Every add_ returns the new element's index.
+class GltfFile {
+ public:
+  GltfFile() { document["asset"]["version"] = "2.0"; }
+
+  size_t add(const char* array, json element) {
+    document[array].push_back(std::move(element));
+    return document[array].size() - 1;
+  }
+  size_t add_view(const std::string& bytes, uint64_t stride = 0) {
+    while (binary.size() % 4 != 0) binary += '\0';
+    json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    if (stride != 0) view["byteStride"] = stride;
+    binary += bytes;
+    return add("bufferViews", view);
+  }
+  size_t add_positions(const std::vector<float>& xyz) {
+    return add("accessors", {{"bufferView", add_view(raw(xyz))},
+                             {"componentType", kFloat},
+                             {"count", xyz.size() / 3},
+                             {"type", "VEC3"}});
+  }
+  template <class T>
+  size_t add_indices(const std::vector<T>& indices, Component type) {
+    return add("accessors", {{"bufferView", add_view(raw(indices))},
+                             {"componentType", type},
+                             {"count", indices.size()},
+                             {"type", "SCALAR"}});
+  }
+  // A mesh of one primitive; no indices where `indices` is negative.
+  size_t add_mesh(size_t positions, int indices = -1, int mode = 4) {
+    json primitive = {{"attributes", {{"POSITION", positions}}}, {"mode", mode}};
+    if (indices >= 0) primitive["indices"] = indices;
+    return add("meshes", {{"primitives", {primitive}}});
+  }
+  // A root node of the default scene.
+  size_t add_root(json node) {
+    const size_t index = add("nodes", std::move(node));
+    document["scene"] = 0;
+    document["scenes"][0]["nodes"].push_back(index);
+    return index;
+  }
+
+  std::string glb() const {
+    json complete = document;
+    complete["buffers"][0]["byteLength"] = binary.size();
+    std::string text = complete.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string padded = binary;
+    padded.resize((padded.size() + 3) / 4 * 4, '\0');
+    return "glTF" + word(2) + word(uint32_t(28 + text.size() + padded.size())) +
+           word(uint32_t(text.size())) + "JSON" + text + word(uint32_t(padded.size())) +
+           std::string("BIN\0", 4) + padded;
+  }
+  // With the buffer by its URI.
+  std::string gltf(const std::string& uri) const {
+    json complete = document;
+    complete["buffers"][0] = {{"byteLength", binary.size()}, {"uri", uri}};
+    return complete.dump();
+  }
+
+  static std::string word(uint32_t value) { return raw(std::vector{value}); }
+
+  json document;
+  std::string binary;
+};
+
+// Two triangles of a unit square, by 4 vertices and 6 indices, on one root node.
+inline const std::vector<float> kSquare = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+inline GltfFile square() {
+  GltfFile file;
+  const size_t positions = file.add_positions(kSquare);
+  const size_t indices = file.add_indices<uint16_t>({0, 1, 2, 0, 2, 3}, kUshort);
+  file.add_root({{"mesh", file.add_mesh(positions, int(indices))}});
+  return file;
+}
+
+inline void read_glb(std::string_view bytes, const char*, SceneWriter& writer) {
+  read_gltf(bytes, "no such folder/scene.glb", writer);
+}
+
+inline Scene read(const GltfFile& file) { return reader_testing::read_scene(read_glb, file.glb()); }
+inline void expect_error(const GltfFile& file, sobb_status status, const std::string& part) {
+  reader_testing::expect_error(read_glb, file.glb(), status, part);
+}
+
+}  // namespace sobb::gltf_testing
