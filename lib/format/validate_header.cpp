@@ -39,7 +39,8 @@ void validate_fields(const FileHeader& header, const char* name) {
 }  // namespace
 
 const FileHeader& validate_header(const Reading& reading) {
-  const auto [bytes, name, scheduler, scratch] = reading;
+  const std::span<const std::byte> bytes = reading.bytes;
+  const char* const name = reading.name;
   const size_t compared = std::min(bytes.size(), sizeof kMagic);
   if (!std::ranges::equal(bytes.first(compared), std::as_bytes(std::span(kMagic, compared)))) {
     fail(SOBB_ERROR_FORMAT_MAGIC, "%s: not a sobb file: it begins with other bytes", name);

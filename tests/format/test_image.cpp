@@ -79,18 +79,21 @@ TEST(Image, WhatIsNoFileIsNotOpened) {
   const TemporaryFolder folder;
   const std::string fifo = folder.path("fifo");
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
-  const std::pair<std::string, std::string> cases[] = {
+  struct Case {
+    std::string path, cause;
+  };
+  const Case cases[] = {
       {folder.path("missing"), "No such file or directory"},
       {folder.path(""), "Is a directory"},
       {fifo, "not a regular file"},
       {"/dev/null", "not a regular file"},
   };
-  for (const auto& [path, cause] : cases) {
-    const std::string expected = path + ": " + cause;
+  for (const Case& c : cases) {
+    const std::string expected = c.path + ": " + c.cause;
     EXPECT_EQ(error_message(SOBB_ERROR_FILE_OPEN,
-                            [&] { Image::read(std::make_shared<Memory>(), path.c_str()); }),
+                            [&] { Image::read(std::make_shared<Memory>(), c.path.c_str()); }),
               expected);
-    EXPECT_EQ(error_message(SOBB_ERROR_FILE_OPEN, [&] { Image::map(path.c_str()); }), expected);
+    EXPECT_EQ(error_message(SOBB_ERROR_FILE_OPEN, [&] { Image::map(c.path.c_str()); }), expected);
   }
 }
 
@@ -102,7 +105,7 @@ TEST(Image, ReadingKeepsTheMemoryLimit) {
   EXPECT_EQ(memory->held(), 0u);
 }
 
-// A sparse file of 2^62 bytes takes no room on the disk, and more than there is in memory.
+// A sparse file of 4 TiB takes no room on the disk, and more than there is in memory.
 TEST(Image, AHugeFileIsRefusedBeforeItIsRead) {
   const TemporaryFolder folder;
   const std::string path = folder.write("sparse", "");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -118,7 +119,8 @@ TEST(FormatTree, TheDeepestThatIsAllowedOpens) {
 
 // The hex dump in docs/format.md: lines of an offset and sixteen bytes.
 TEST(FormatDocument, ItsExampleIsTheSmallestFile) {
-  std::ifstream document(SOBB_TEST_DATA "/../../docs/format.md");
+  const auto tests = std::filesystem::path(SOBB_TEST_DATA).parent_path();
+  std::ifstream document(tests.parent_path() / "docs/format.md");
   ASSERT_TRUE(document) << "docs/format.md is missing";
   std::vector<std::byte> example;
   for (std::string line; std::getline(document, line);) {
