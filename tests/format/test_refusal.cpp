@@ -26,7 +26,9 @@ struct Refusal {
   std::function<void(SmallFile&)> damage;
   bool sealed = true;  // checksums are made to fit the damage
 
-  friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.name; }
+  friend std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
+    return out << refusal.name;
+  }
 };
 
 Node<4>& node(SmallFile& file, int index) { return file.node<4>(index); }
