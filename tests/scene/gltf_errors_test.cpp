@@ -86,7 +86,7 @@ TEST(GltfErrors, RefusesCyclesAndNodesReachedTwice) {
 
 TEST(GltfErrors, ReadsNodesNestedAsDeepAsAFileLikes) {
   GltfFile file = square();
-  constexpr int kDepth = 50'000;
+  constexpr int kDepth = 20'000;
   for (int i = 1; i < kDepth; ++i) file.add("nodes", {{"children", {i - 1}}});
   file.document["scenes"][0]["nodes"] = {kDepth - 1};
   EXPECT_EQ(read(file).indices.size(), 6U);
@@ -149,7 +149,7 @@ TEST(GltfErrors, RefusesOtherJson) {
   refused("{}", "asset is not an object");
   refused(R"({"asset": {}})", "asset");
   refused(std::string(100'000, '['), "nested deeper");
-  refused(R"({"asset": {"version": "2.0"}, "x": 1e999})", "out of range");
+  refused(R"({"asset": {"version": "2.0"}, "x": 1e999})", "overflow");
 }
 
 TEST(GltfErrors, CountsInstancesBeforeTheyTakeMemory) {
