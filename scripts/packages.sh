@@ -7,7 +7,7 @@ build_packages="g++ cmake ninja-build ccache pkg-config
   libbenchmark-dev libcli11-dev python3-venv"
 
 # What the tests and checks need besides.
-test_packages="libgtest-dev libopenmesh-dev
+test_packages="git libgtest-dev libopenmesh-dev
   clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
 
 # Installs those of the packages named that are missing; needs root or sudo only then.
