@@ -45,8 +45,8 @@ class TextReader {
   void skip(uint64_t words, const char* what);
 
   void expect_line_end();
-  void expect_word(std::string_view word);  // ASCII letters in either case
-  bool take_word(std::string_view word);    // whether it is the next one; else stays before it
+  void expect_word(std::string_view expected);  // ASCII letters in either case
+  bool take_word(std::string_view expected);    // whether it is the next one; else stays before it
 
   // The text after the current line.
   std::string_view text_after_line() const;

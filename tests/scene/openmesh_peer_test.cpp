@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenMesh's readers as peers: the same well-formed files, the same vertices and triangles.
+#if defined(__GNUC__) && !defined(__clang__)
+// OpenMesh adds vectors without values; GCC sees that when sanitizers change what is inlined.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 #include <gtest/gtest.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>

@@ -80,7 +80,7 @@ TEST(Stl, ReadsBinary) {
 
 TEST(Stl, NamesTheLineOfASyntaxError) {
   const auto syntax = SOBB_ERROR_SCENE_SYNTAX;
-  const auto with = [](std::string from, const std::string& to) {
+  const auto with = [](const std::string& from, const std::string& to) {
     std::string text = solid(kFacet);
     return text.replace(text.find(from), from.size(), to);
   };
