@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Heat maps: the work of each ray as a colour, with the scale beside it."""
 
+import math
+
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
@@ -43,8 +45,10 @@ def colour_map(size: int = 256) -> np.ndarray:
 
 
 def shared_scale(*maps: np.ndarray) -> int:
-    """The value that is "much" for some maps together: but one pixel in 200 is below it."""
-    return max(1, round(max(float(np.percentile(work, 99.5)) for work in maps)))
+    """The value that is "much" for some maps together: all but one pixel in 200 are below it. A
+    multiple of 4, for the legend's marks."""
+    much = max(float(np.percentile(work, 99.5)) for work in maps)
+    return max(4, math.ceil(much / 4) * 4)
 
 
 def picture(work: np.ndarray, scale: int, title: str) -> Image.Image:
@@ -74,5 +78,5 @@ def _draw_legend(result: Image.Image, left: int, height: int, colours: np.ndarra
         y = _MARGIN + (length - 1) * (4 - mark) / 4
         x = left + _MARGIN + _BAR
         draw.line([(x, y), (x + 4, y)], _INK)
-        label = f"{scale * mark / 4:.4g}" + ("+" if mark == 4 else "")
+        label = f"{scale * mark // 4}" + ("+" if mark == 4 else "")
         draw.text((x + 8, y), label, _INK, font, anchor="lm")

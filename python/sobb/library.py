@@ -97,8 +97,8 @@ def _load(name: str, signatures: Mapping[str, tuple[Any, list[Any]]]) -> ctypes.
         library = ctypes.CDLL(path)
     except OSError as error:
         raise OSError(
-            f"cannot load {file}: {error}. Build it (scripts/setup.sh) or install it, or name its "
-            "folder in SOBB_LIBRARY_PATH."
+            f"{error}. Build it (scripts/setup.sh), install it, or name its folder in "
+            "SOBB_LIBRARY_PATH."
         ) from None
     for function, (result, arguments) in signatures.items():
         getattr(library, function).restype = result
