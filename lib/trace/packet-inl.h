@@ -55,7 +55,7 @@ struct PacketRays {
       }
       error[i] = scaled.error;
       tmin[i] = scaled.tmin;
-      limit[i] = scaled.scaled(best[i]->limit);
+      limit[i] = scale_limit(best[i]->limit, scaled.scale);
       scale[i] = scaled.scale;
     }
     const RayFloats d;
@@ -170,7 +170,7 @@ HWY_INLINE void trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_
                             key_triangles(entry.key), rays[i].tmin, packet.limit[i], *best[i])) {
         // An occluded ray is done: no distance is before a negative limit.
         packet.limit[i] =
-            kQuery == Query::kAny ? -1.0F : static_cast<float>(best[i]->limit * packet.scale[i]);
+            kQuery == Query::kAny ? -1.0F : scale_limit(best[i]->limit, packet.scale[i]);
       }
     }
   }

@@ -13,6 +13,15 @@
 
 namespace sobb {
 
+// A hit's t is rounded to float before it is scaled: where it is denormal, by up to this much.
+inline constexpr double kSmallestFloat = 0x1p-149;
+
+// The scaled t up to which volumes matter to a ray whose best hit so far is at t. Near the largest
+// floats it is infinite, which culls nothing.
+inline float scale_limit(float t, double scale) {
+  return static_cast<float>((t + kSmallestFloat) * scale);
+}
+
 struct ScaledRay {
   float origin[3];
   float direction[3];
@@ -36,15 +45,12 @@ struct ScaledRay {
     for (int k = 0; k < 3; ++k) {
       direction[k] = static_cast<float>(ray.direction[k] * inverse);
     }
-    tmin = scaled(ray.tmin);
+    tmin = static_cast<float>(std::fmax(ray.tmin - kSmallestFloat, 0.0) * scale);
     const auto distance = static_cast<float>(std::sqrt(square));
     reach = distance + tracer.radius;
     error = 16 * 0x1p-24F * (distance + reach) + 0x1p-100F;
     if (!(distance <= kFurthest)) forgo_culling();
   }
-
-  // Near the largest floats a scaled t is infinite, which culls nothing.
-  float scaled(float t) const { return static_cast<float>(t * scale); }
 
  private:
   // Beyond this the products of the slab test could overflow.

@@ -92,7 +92,7 @@ HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit&
   StackKey stack[kMaxDepth * (W - 1) + 1];
   StackKey* top = stack;
   StackKey key = kRootKey;
-  float limit = scaled.scaled(best.limit);
+  float limit = scale_limit(best.limit, scaled.scale);
   for (;;) {
     bool met = true;
     while (met && !key_is_leaf(key)) {
@@ -108,7 +108,7 @@ HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit&
       if (test_leaf<kQuery>(block_ray, tracer.blocks + key_index(key), key_triangles(key), ray.tmin,
                             limit, best)) {
         if (kQuery == Query::kAny) return;
-        limit = scaled.scaled(best.limit);
+        limit = scale_limit(best.limit, scaled.scale);
       }
     }
     const StackKey last = last_key(limit);

@@ -59,6 +59,14 @@ struct TriangleHit {
   float t, u, v;
 };
 
+// Rounds to float. The empty statement keeps GCC 12 from dropping the conversion there and back
+// when it vectorises straight-line code (-O3; seen as two lanes of a pair left unrounded).
+inline double round_to_float(double value) {
+  auto rounded = static_cast<float>(value);
+  asm("" : "+x"(rounded));
+  return rounded;
+}
+
 // Intersects the triangle of vertices (x[i], y[i], z[i]), given in the ray's permuted axes. The
 // caller compares t with the ray's interval. Degenerate and exactly edge-on triangles are missed.
 inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const float y[3],
@@ -68,8 +76,8 @@ inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const f
   double pz[3];
   for (int i = 0; i < 3; ++i) {
     pz[i] = z[i] - ray.origin[2];
-    px[i] = static_cast<float>((x[i] - ray.origin[0]) - ray.shear_x * pz[i]);
-    py[i] = static_cast<float>((y[i] - ray.origin[1]) - ray.shear_y * pz[i]);
+    px[i] = round_to_float((x[i] - ray.origin[0]) - ray.shear_x * pz[i]);
+    py[i] = round_to_float((y[i] - ray.origin[1]) - ray.shear_y * pz[i]);
   }
   // Weights of the vertices, up to their sum: areas of the triangles that the ray and an edge make.
   const double w0 = px[2] * py[1] - py[2] * px[1];
