@@ -88,11 +88,14 @@ bool verify(Workbench& workbench, std::ostream& log) {
     if (!reference) continue;
     for (const auto& [method, peer] : workbench.peers()) {
       EmbreeRays& rays = workbench.embree_rays();
-      TraceOutput output;
-      rays.load(set, Call::kSingle);
-      peer->trace(set, Call::kSingle, workbench.workers(), rays);
-      rays.read(set, Call::kSingle, output);
-      compare_peer(*reference, row_name(kind, method, Call::kSingle), set, output, log);
+      for (const Call call : kCalls) {
+        if (call == Call::kArray && !kEmbreeHasArrayCall) continue;
+        TraceOutput output;
+        rays.load(set, call);
+        peer->trace(set, call, workbench.workers(), rays);
+        rays.read(set, call, output);
+        compare_peer(*reference, row_name(kind, method, call), set, output, log);
+      }
     }
   }
   if (same && !workbench.subjects().empty() && !workbench.ray_sets().empty()) {
