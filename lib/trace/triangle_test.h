@@ -68,7 +68,8 @@ inline double round_to_float(double value) {
 }
 
 // Intersects the triangle of vertices (x[i], y[i], z[i]), given in the ray's permuted axes. The
-// caller compares t with the ray's interval. Degenerate and exactly edge-on triangles are missed.
+// caller compares t with the ray's interval. Degenerate and exactly edge-on triangles are missed,
+// as are those behind the origin.
 inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const float y[3],
                                const float z[3], TriangleHit& hit) {
   double px[3];
@@ -86,8 +87,9 @@ inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const f
   const bool inside = (w0 >= 0 && w1 >= 0 && w2 >= 0) || (w0 <= 0 && w1 <= 0 && w2 <= 0);
   const double sum = w0 + w1 + w2;
   if (!inside || sum == 0) return false;
-  hit.t = static_cast<float>((w0 * pz[0] + w1 * pz[1] + w2 * pz[2]) / (sum * ray.direction_z));
-  hit.t += 0.0F;  // -0 becomes 0
+  const double t = (w0 * pz[0] + w1 * pz[1] + w2 * pz[2]) / (sum * ray.direction_z);
+  if (t < 0) return false;               // even if it would round to 0
+  hit.t = static_cast<float>(t) + 0.0F;  // -0 becomes 0
   hit.u = static_cast<float>(w1 / sum);
   hit.v = static_cast<float>(w2 / sum);
   return true;
