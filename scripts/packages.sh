@@ -29,7 +29,7 @@ need_packages() {
     command -v sudo >/dev/null || { echo "Run as root, or install sudo." >&2; return 1; }
     root=(sudo)
   fi
-  "${root[@]}" apt-get update -q
+  "${root[@]}" apt-get update -qq
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
-    apt-get install -q -y --no-install-recommends "${missing[@]}"
+    apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
 }
