@@ -159,7 +159,7 @@ def _render(options: argparse.Namespace) -> None:
     with bar("render") as progress:
         if options.heat:
             work = render.work(hierarchy, view, *options.size)
-            picture = heat.picture(work, heat.shared_scale(work), hierarchy.info.volume)
+            picture = heat.picture(work, heat.shared_scale(work), hierarchy.info.volume.upper())
         else:
             picture = Image.fromarray(render.shaded(hierarchy, view, *options.size, progress))
     image.write_png(options.output, picture)
