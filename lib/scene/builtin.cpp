@@ -29,7 +29,7 @@ struct BuiltinScene {
 };
 
 const std::vector<BuiltinScene>& scenes() {
-  static const std::vector<BuiltinScene> kScenes = {
+  static const std::vector<BuiltinScene> all = {
       {"hairball", make_hairball, {0, 0, 0}, {{{1.4, 1.1, 2.2}, {0, 0, 0}, 45}}},
       {"wool", make_wool, {0, 0.8, 0}, {{{-2.3, 1.5, 1.6}, {0, 0.76, 0.3}, 38}}},
       {"pipes",
@@ -46,7 +46,7 @@ const std::vector<BuiltinScene>& scenes() {
        {0, 0, 0},
        {{{11, 6.5, 13}, {-0.3, -0.8, 0}, 42}, {{3, 3, 11}, {-0.5, 0.2, 0}, 50}}},
   };
-  return kScenes;
+  return all;
 }
 
 const BuiltinScene* find_scene(std::string_view name) {

@@ -88,8 +88,9 @@ void make_city(PartsWriter& parts) {
   Random random(5);
   const double pitch = 2 * kHalf / double(rows);
   for (uint64_t i = 0; i < rows * rows; ++i) {
+    const uint64_t row = i / rows;
     const Vec3 middle{-kHalf + pitch * (double(i % rows) + 0.5), 0,
-                      -kHalf + pitch * (double(i / rows) + 0.5)};
+                      -kHalf + pitch * (double(row) + 0.5)};
     const double far = length(middle) / kHalf;  // towers in the middle, houses at the edge
     const double height =
         std::min(pitch, 3.0) * random.uniform(0.5, 1.6) * (0.6 + 1.8 / (1 + 4 * far * far));

@@ -68,7 +68,8 @@ void write_tree(PartsWriter& parts, Random& random, Vec3 foot, double height, ui
   for (uint64_t i = 0; i < leaves; ++i) {
     const double t = random.uniform();
     const Branch& branch = made[random.below(made.size())];
-    const Vec3 scatter = 0.09 * height * random.uniform() * random.direction();
+    const double far = 0.09 * height * random.uniform();
+    const Vec3 scatter = far * random.direction();
     write_leaf(parts, random, along(branch, 1 - 0.75 * t * t) + scatter, size);
   }
 }
@@ -86,8 +87,9 @@ void make_foliage(PartsWriter& parts) {
   Random random(4);
   const double pitch = 2 * kHalf / double(rows);
   for (uint64_t i = 0; i < rows * rows; ++i) {
+    const uint64_t row = i / rows;
     const double x = -kHalf + pitch * (double(i % rows) + random.uniform(0.25, 0.75));
-    const double z = -kHalf + pitch * (double(i / rows) + random.uniform(0.25, 0.75));
+    const double z = -kHalf + pitch * (double(row) + random.uniform(0.25, 0.75));
     const double height = std::min(3.5, 1.3 * pitch) * random.uniform(0.7, 1.1);
     write_tree(parts, random, {x, 0, z}, height, parts.left() / (rows * rows - i));
   }

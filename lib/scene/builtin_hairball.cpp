@@ -42,9 +42,9 @@ void write_strand(PartsWriter& parts, Random& random, uint64_t segments, double 
 void make_hairball(PartsWriter& parts) {
   const uint64_t segments = std::clamp<uint64_t>(parts.left() / 300, 2, 48);
   const uint64_t each = PartsWriter::tube_triangles(segments + 1, kSides);
-  const auto strands = double(parts.left() / each);
+  const uint64_t strands = parts.left() / each;
   // Thinner where there are more, though not so much that they would cover no more of the ball.
-  const double radius = std::min(0.03, 0.12 / std::sqrt(strands));
+  const double radius = std::min(0.03, 0.12 / std::sqrt(double(strands)));
   Random random(1);
   while (parts.left() >= each) write_strand(parts, random, segments, radius);
   const uint64_t rest = parts.left() / (2 * kSides);

@@ -57,6 +57,8 @@ inline SinCos sin_cos(double turns) {
   }
 }
 
+// Draw twice in one expression only within braces, which C++ evaluates in order.
+//
 // SplitMix64 (Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, 2014).
 class Random {
  public:

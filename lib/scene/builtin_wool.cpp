@@ -67,7 +67,8 @@ void make_wool(PartsWriter& parts) {
 
   const uint64_t segments = parts.left() < 5000 ? 2 : 6;
   const uint64_t each = PartsWriter::tube_triangles(segments + 1, kSides);
-  const double radius = std::min(0.02, 0.5 / std::sqrt(double(parts.left() / each + 1)));
+  const uint64_t curls = parts.left() / each + 1;
+  const double radius = std::min(0.02, 0.5 / std::sqrt(double(curls)));
   Random random(2);
   while (parts.left() >= each) {
     double choice = random.uniform();

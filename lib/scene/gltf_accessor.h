@@ -35,7 +35,7 @@ class GltfAccessor {
     uint64_t stride = 0;
   };
   [[noreturn]] void wrong(const char* format, ...) const __attribute__((format(printf, 2, 3)));
-  Range range(int view, uint64_t offset, uint64_t count, uint64_t element) const;
+  Range range(int index, uint64_t offset, uint64_t count, uint64_t element) const;
   void check_type(const tinygltf::Accessor& accessor, Use use);
   void substitute(const tinygltf::Accessor& accessor);
 

@@ -27,6 +27,6 @@ struct GltfDocument {
 // lie in their buffers. So it is given a document of ours, with the members that geometry needs,
 // each of the type and range that the specification (glTF 2.0) says. Nor does it see the buffers,
 // which it would read at once, one copy each: GltfBuffers does that.
-GltfDocument parse_gltf(std::string_view json, const std::string& name);
+GltfDocument parse_gltf(std::string_view text, const std::string& name);
 
 }  // namespace sobb

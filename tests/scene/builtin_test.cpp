@@ -33,7 +33,7 @@ TEST(Builtin, GivesTheSameBitsEverywhere) {
       {"builtin:hairball:20000", 0x3084EBC8916F9BF5},
       {"builtin:wool:20000", 0xD4D4C8FC05746E79},
       {"builtin:pipes:20000", 0xCB0691DC60845C8D},
-      {"builtin:foliage:20000", 0x1E63279B7BE54EFE},
+      {"builtin:foliage:20000", 0xA61C94294E7149E9},
       {"builtin:city:20000", 0x0E9E9D3279069867},
       {"builtin:terrain:20000", 0xAF41C0B35B65770D},
       {"builtin:pipes:20000@27.5", 0xED4BDEA449C0E15F},

@@ -29,7 +29,10 @@ const uint64_t kCorners[] = {0, 1, 2, 3};
 TEST(SceneWriter, SplitsPolygonsIntoFansByMesh) {
   Scene scene;
   SceneWriter writer("file", 0, scene);
-  for (int i = 0; i < 4; ++i) writer.add_vertex(float(i % 2), float(i / 2), 0, "here");
+  for (const float y : {0.0F, 1.0F}) {
+    writer.add_vertex(0, y, 0, "here");
+    writer.add_vertex(1, y, 0, "here");
+  }
   writer.add_polygon(std::span(kCorners, 3), "here");
   writer.begin_mesh("empty");
   writer.begin_mesh("second");
