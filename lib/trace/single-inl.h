@@ -7,6 +7,7 @@
 #define SOBB_TRACE_SINGLE_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include <utility>
@@ -58,14 +59,27 @@ HWY_INLINE bool test_leaf(const BlockRay& ray, const TriangleBlock* block, uint3
   return found;
 }
 
+// Asks for what a key names, all of a node or as much of a leaf, before it is its turn.
+template <int W>
+HWY_INLINE void prefetch(const Tracer& tracer, StackKey key) {
+  const auto* nodes = static_cast<const Node<W>*>(tracer.nodes);
+  const void* at = key_is_leaf(key) ? static_cast<const void*>(tracer.blocks + key_index(key))
+                                    : static_cast<const void*>(nodes + key_index(key));
+  const auto* bytes = static_cast<const uint8_t*>(at);
+  for (size_t line = 0; line < sizeof(Node<W>); line += 64) hwy::Prefetch(bytes + line);
+}
+
 // Pushes the children met but the nearest, furthest first, and returns the nearest's key.
 template <int W>
-HWY_INLINE StackKey push_but_nearest(const NodeHits<W>& hits, const Node<W>& node, StackKey*& top) {
+HWY_INLINE StackKey push_but_nearest(const Tracer& tracer, const NodeHits<W>& hits,
+                                     const Node<W>& node, StackKey*& top) {
   uint32_t mask = hits.mask;
   const auto next = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
-    return hits.key(node, child);
+    const StackKey key = hits.key(node, child);
+    prefetch<W>(tracer, key);
+    return key;
   };
   StackKey nearest = next();
   if (mask == 0) return nearest;
@@ -101,7 +115,7 @@ HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit&
       test_node<W, kAxes>(table, node, scaled.tmin, limit, hits);
       counter.add_node(child_count(node));
       met = hits.mask != 0;
-      if (met) key = push_but_nearest(hits, node, top);
+      if (met) key = push_but_nearest(tracer, hits, node, top);
     }
     if (met) {
       counter.add_leaf(key_triangles(key));
