@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// choose(): each strategy finds what its description says, from every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <memory_resource>
+#include <vector>
+
+#include "bounds/area.h"
+#include "bounds/bounds_kernels.h"
+#include "bounds/each_isa.h"
+#include "support/soups.h"
+
+namespace sobb::test {
+namespace {
+
+constexpr sobb_strategy kStrategies[] = {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3};
+
+struct Table {
+  std::vector<Direction> directions;
+  DirectionTable soa;
+  BasisTable basis;
+
+  explicit Table(uint32_t k)
+      : directions(default_directions(k).begin(), default_directions(k).end()),
+        soa(make_direction_table(directions)),
+        basis(soa, *std::pmr::get_default_resource()) {}
+
+  double determinant_of(uint16_t of) const {
+    return std::fabs(determinant(directions[basis_direction(of, 0)],
+                                 directions[basis_direction(of, 1)],
+                                 directions[basis_direction(of, 2)]));
+  }
+};
+
+// The k-DOP of a box of random shape, turned at random: needles, sheets, lumps.
+Kdop random_kdop(Random& random, const Table& table) {
+  std::vector<RelativePoint> points;
+  float axis[3][3];
+  for (auto& row : axis) {
+    const double length = std::exp(-6 * random.uniform());
+    for (float& value : row) value = static_cast<float>(length * (2 * random.uniform() - 1));
+  }
+  for (int i = 0; i < 12; ++i) {
+    float at[3] = {};
+    for (const auto& row : axis) {
+      const double s = random.uniform();
+      for (int k = 0; k < 3; ++k) at[k] += static_cast<float>(s * row[k]);
+    }
+    points.push_back({at[0], at[1], at[2]});
+  }
+  Kdop kdop;
+  bounds_kernels(SOBB_ISA_SSE4).fit(table.soa, points.data(), points.size(), kdop);
+  return kdop;
+}
+
+// Of one to eight volumes.
+Gram random_gram(Random& random, const Table& table) {
+  Gram gram = {};
+  for (uint32_t i = 1 + random.below(8); i > 0; --i) {
+    bounds_kernels(SOBB_ISA_SSE4)
+        .add_to_gram(random_kdop(random, table), 0.5F, random.between(0.5, 4), gram);
+  }
+  return gram;
+}
+
+struct Scalar {
+  const Table& table;
+  const Gram& gram;
+  float least = INFINITY;
+  uint32_t triple[3] = {0, 0, 0};
+
+  float sum(uint32_t i, uint32_t j) const { return gram.sum[i][j]; }
+
+  void try_triple(uint32_t i, uint32_t j, uint32_t l) {
+    const float area =
+        ((sum(i, j) + sum(j, l)) + sum(i, l)) * table.basis.inverse_determinants(i, j)[l];
+    if (!(area < least)) return;
+    least = area;
+    triple[0] = i;
+    triple[1] = j;
+    triple[2] = l;
+  }
+
+  uint32_t narrowest() const {
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < table.basis.count(); ++i) {
+      if (sum(i, i) < sum(best, best)) best = i;
+    }
+    return best;
+  }
+
+  uint32_t best_second(uint32_t i) const {
+    uint32_t best = i;
+    float extent = INFINITY;
+    for (uint32_t j = 0; j < table.basis.count(); ++j) {
+      if (j == i) continue;
+      const double cosine = dot(table.directions[i], table.directions[j]);
+      const float across = sum(j, j) * static_cast<float>(1 / (1 - cosine * cosine));
+      if (across < extent) {
+        extent = across;
+        best = j;
+      }
+    }
+    return best;
+  }
+
+  BasisChoice choice() {
+    std::sort(triple, triple + 3);
+    return {make_basis(triple[0], triple[1], triple[2]), 2 * least};
+  }
+};
+
+// Tries what the kernel tries: the order of three equal terms decides the last bit of their sum.
+BasisChoice choose_scalar(const Table& table, const Gram& gram, sobb_strategy strategy) {
+  Scalar search{table, gram};
+  const uint32_t count = table.basis.count();
+  const uint32_t first = search.narrowest();
+  for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t j = 0; j < count; ++j) {
+      const bool tried =
+          strategy == SOBB_STRATEGY_K3 ? i < j && j + 1 < count : i == first && j != i;
+      if (!tried) continue;
+      if (strategy == SOBB_STRATEGY_K && j != search.best_second(i)) continue;
+      for (uint32_t l = 0; l < count; ++l) search.try_triple(i, j, l);
+    }
+  }
+  return search.choice();
+}
+
+// In double, each triple once: what k^3 is to find, within rounding.
+double least_area(const Table& table, const Gram& gram) {
+  double least = INFINITY;
+  for (uint32_t i = 0; i < table.basis.count(); ++i) {
+    for (uint32_t j = i + 1; j < table.basis.count(); ++j) {
+      for (uint32_t l = j + 1; l < table.basis.count(); ++l) {
+        const double det =
+            std::fabs(determinant(table.directions[i], table.directions[j], table.directions[l]));
+        if (det < kSmallestDeterminant) continue;
+        const double sum = static_cast<double>(gram.sum[i][j]) + gram.sum[j][l] + gram.sum[i][l];
+        least = std::min(least, 2 * sum / det);
+      }
+    }
+  }
+  return least;
+}
+
+TEST(Basis, EachStrategyFindsWhatItDescribes) {
+  constexpr uint64_t kSeed = 91;
+  Random random(kSeed);
+  for (const uint32_t k : {32U, 48U, 64U}) {
+    const Table table(k);
+    for (int round = 0; round < 60; ++round) {
+      const Gram gram = random_gram(random, table);
+      float area[4] = {};
+      for (const sobb_strategy strategy : kStrategies) {
+        const BasisChoice expected = choose_scalar(table, gram, strategy);
+        for (const sobb_isa isa : each_isa()) {
+          const BasisChoice choice = bounds_kernels(isa).choose(table.basis, gram, strategy);
+          ASSERT_EQ(choice.basis, expected.basis)
+              << "seed " << kSeed << " k " << k << " round " << round << " strategy " << strategy;
+          ASSERT_EQ(choice.area, expected.area);
+        }
+        area[strategy] = expected.area;
+      }
+      ASSERT_NEAR(area[SOBB_STRATEGY_K3] / least_area(table, gram), 1, 1e-5);
+      ASSERT_LE(area[SOBB_STRATEGY_K3], area[SOBB_STRATEGY_K2] * (1 + 1e-6F));
+      ASSERT_LE(area[SOBB_STRATEGY_K2], area[SOBB_STRATEGY_K]);
+    }
+  }
+}
+
+TEST(Basis, EqualAreasGoToTheLowestIndices) {
+  const Table table(64);
+  Gram zero = {};
+  for (const sobb_isa isa : each_isa()) {
+    for (const sobb_strategy strategy : kStrategies) {
+      const BasisChoice choice = bounds_kernels(isa).choose(table.basis, zero, strategy);
+      EXPECT_EQ(choice.basis, kAxesBasis) << "strategy " << strategy;
+      EXPECT_EQ(choice.area, 0);
+    }
+  }
+}
+
+TEST(Basis, IsNeverNearlySingularHoweverFlatTheInput) {
+  constexpr uint64_t kSeed = 92;
+  Random random(kSeed);
+  for (const uint32_t k : {32U, 48U, 64U}) {
+    const Table table(k);
+    for (int round = 0; round < 200; ++round) {
+      // Some slabs without width at all: any third to two of them makes an area of 0.
+      Kdop kdop = random_kdop(random, table);
+      for (uint32_t i = 0; i < table.basis.count(); ++i) {
+        if (random.below(2) == 0) kdop.lower[i] = kdop.upper[i];
+      }
+      Gram gram = {};
+      bounds_kernels(SOBB_ISA_SSE4).add_to_gram(kdop, 1, 1, gram);
+      for (const sobb_strategy strategy : kStrategies) {
+        const BasisChoice choice =
+            bounds_kernels(SOBB_ISA_SSE4).choose(table.basis, gram, strategy);
+        ASSERT_GE(table.determinant_of(choice.basis), kSmallestDeterminant)
+            << "seed " << kSeed << " k " << k << " round " << round << " strategy " << strategy;
+        ASSERT_LT(basis_direction(choice.basis, 0), basis_direction(choice.basis, 1));
+        ASSERT_LT(basis_direction(choice.basis, 1), basis_direction(choice.basis, 2));
+      }
+    }
+  }
+}
+
+TEST(Basis, GramSumsTheAreasOfItsVolumes) {
+  constexpr uint64_t kSeed = 93;
+  constexpr float kScale = 0.25F;
+  Random random(kSeed);
+  const Table table(64);
+  for (int round = 0; round < 200; ++round) {
+    Gram gram = {};
+    double expected = 0;
+    const uint32_t count = table.basis.count();
+    uint32_t index[3] = {random.below(count), random.below(count), random.below(count)};
+    std::sort(index, index + 3);
+    const uint16_t basis = make_basis(index[0], index[1], index[2]);
+    if (table.determinant_of(basis) < kSmallestDeterminant) continue;
+    for (uint32_t i = 1 + random.below(8); i > 0; --i) {
+      const Kdop kdop = random_kdop(random, table);
+      const float weight = random.between(0.5, 4);
+      bounds_kernels(SOBB_ISA_SSE4).add_to_gram(kdop, kScale, weight, gram);
+      Direction normal[3];
+      double width[3];
+      for (int j = 0; j < 3; ++j) {
+        normal[j] = table.directions[index[j]];
+        width[j] = kScale * (static_cast<double>(kdop.upper[index[j]]) - kdop.lower[index[j]]);
+      }
+      expected += weight * slab_area(normal, width);
+    }
+    ASSERT_NEAR(area_in_basis(table.basis, gram, basis) / expected, 1, 1e-5)
+        << "seed " << kSeed << " round " << round;
+  }
+}
+
+TEST(Basis, GramIsTheSameFromEveryInstructionSet) {
+  Random random(94);
+  const Table table(48);
+  for (int round = 0; round < 50; ++round) {
+    const Kdop kdop = random_kdop(random, table);
+    Gram expected = {};
+    bounds_kernels(SOBB_ISA_SSE4).add_to_gram(kdop, 0.3F, 1.7F, expected);
+    for (const sobb_isa isa : each_isa()) {
+      Gram gram = {};
+      bounds_kernels(isa).add_to_gram(kdop, 0.3F, 1.7F, gram);
+      ASSERT_EQ(std::memcmp(&gram, &expected, sizeof gram), 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sobb::test
