@@ -17,7 +17,9 @@ Progress = Callable[[float], None]
 _SAMPLES = 3  # a pixel, in each direction
 _BOUNCES = 2  # ambient rays a sample
 _BAND = 24 * _SAMPLES  # rows of samples traced at once: whole tiles, whole pixels
-_REACH = 0.1  # how far ambient rays go, in diagonals of the bounds
+_AMBIENT_REACH = 0.15  # how far ambient rays go, in median distances from the eye
+_KEY_REACH = 0.1  # how far rays to the key light go, in diagonals of the bounds: into rooms, too
+_FLOOR = 0.15  # of ambient light, where nothing is open
 _SEED = 1
 # Steps of an evenly spread sequence of points (M. Roberts, R2, 2018): powers of 1/plastic ratio.
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
@@ -79,7 +81,8 @@ class _Shader:
         self._surface = Surface(hierarchy)
         info = hierarchy.info
         diagonal = np.linalg.norm(np.subtract(info.bounds_max, info.bounds_min))
-        self._reach = _REACH * float(diagonal)
+        self._key_reach = _KEY_REACH * float(diagonal)
+        self._ambient_reach = _AMBIENT_REACH * self._median_distance(view)
         forward, up = (
             normalised(np.array([v], np.float32))[0]
             for v in (np.subtract(view.target, view.eye), view.up)
@@ -88,6 +91,11 @@ class _Shader:
         self._up = up
         # Over the photographer's left shoulder.
         self._key = normalised((-0.4 * forward - 0.6 * right + 0.65 * up)[None])[0]
+
+    def _median_distance(self, view: View) -> float:
+        hits = self._hierarchy.intersect(make.primary(view, 64, 64)[0])
+        distances = hits["t"][is_hit(hits)]
+        return float(np.median(distances)) if distances.size else 1.0
 
     def colours(self, rays: np.ndarray, uniform: np.ndarray) -> np.ndarray:
         """Linear light along rays (n,): float32 (n, 3). `uniform` (n, 2) spreads what they see."""
@@ -106,7 +114,7 @@ class _Shader:
     def _shade(
         self, points: SurfacePoints, directions: np.ndarray, uniform: np.ndarray
     ) -> np.ndarray:
-        open_sky = self._openness(points, uniform)[:, None]
+        open_sky = _FLOOR + (1 - _FLOOR) * self._openness(points, uniform)[:, None]
         upward = (0.5 + 0.5 * points.normal @ self._up)[:, None]
         ambient = (_GROUND + (_SKY - _GROUND) * upward) * open_sky
         key = self._key_light(points)[:, None] * _KEY
@@ -119,7 +127,7 @@ class _Shader:
         for bounce in range(_BOUNCES):
             spread = (uniform + bounce * _SAMPLES**2 * _R2) % 1
             rays = make.bounces(points, spread.astype(np.float32))
-            rays["tmax"] = self._reach
+            rays["tmax"] = self._ambient_reach
             free += self._hierarchy.occluded(rays) == 0
         return free / _BOUNCES
 
@@ -128,6 +136,6 @@ class _Shader:
         cosine = np.maximum(points.normal @ self._key, 0)
         lit = np.flatnonzero(cosine > 0)
         origins = points.lifted()[lit]
-        rays = make.make_rays(origins, np.broadcast_to(self._key, origins.shape), self._reach)
+        rays = make.make_rays(origins, np.broadcast_to(self._key, origins.shape), self._key_reach)
         cosine[lit[self._hierarchy.occluded(rays, coherent=True) != 0]] = 0
         return cosine
