@@ -54,14 +54,16 @@ format() {
   git ls-files -z -- '*.c' '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
 }
 
-# clang-tidy repeats each file's command and counts what it does not show: neither is wanted.
+# Over the sanitizer build's commands, which are clang's own. clang-tidy repeats each file's command
+# and counts what it does not show: neither is wanted.
 tidy() {
-  run-clang-tidy-14 -quiet -j "$jobs" -p build/release "^$PWD/(lib|capi)/" 2>&1 |
+  run-clang-tidy-14 -quiet -j "$jobs" -p build/asan "^$PWD/(lib|capi/src)/" 2>&1 |
     { grep -vE '^clang-tidy-14 |^[0-9]+ warnings generated|^$' || true; }
 }
 
 ruff() {
-  .venv/bin/ruff check python scripts && .venv/bin/ruff format --check python scripts
+  .venv/bin/ruff check --config python/pyproject.toml python scripts &&
+    .venv/bin/ruff format --config python/pyproject.toml --check python scripts
 }
 
 check "release build, g++" scripts/setup.sh --tests
@@ -70,8 +72,8 @@ check "Python tests" .venv/bin/python -m pytest -q python/tests
 if [[ $quick == no ]]; then
   check "clang-format" format
   check "ruff" ruff
-  check "clang-tidy" tidy
   check "sanitizer build, clang" build asan
+  check "clang-tidy" tidy
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
     ctest --preset asan -j "$jobs"
 fi

@@ -157,12 +157,12 @@ typedef struct sobb_scheduler {
  */
 typedef struct sobb_triangles {
   uint32_t struct_size;
-  uint32_t reserved;      /**< zero */
-  const float* vertices;  /**< x, y, z of vertex i at byte i * vertex_stride */
-  uint64_t vertex_count;  /**< at most 2^32 */
-  uint64_t vertex_stride; /**< bytes from vertex to vertex, a multiple of 4; 0 means 12 */
-  const uint32_t* indices;  /**< three a triangle, tightly packed */
-  uint64_t triangle_count;  /**< 1 to 2^32 - 3 */
+  uint32_t reserved;       /**< zero */
+  const float* vertices;   /**< x, y, z of vertex i at byte i * vertex_stride */
+  uint64_t vertex_count;   /**< at most 2^32 */
+  uint64_t vertex_stride;  /**< bytes from vertex to vertex, a multiple of 4; 0 means 12 */
+  const uint32_t* indices; /**< three a triangle, tightly packed */
+  uint64_t triangle_count; /**< 1 to 2^32 - 3 */
 } sobb_triangles;
 
 /* ------------------------------------------------------------------------------- build -- */
@@ -202,7 +202,7 @@ typedef struct sobb_build_options {
   uint32_t width;    /**< children a node: 4 or 8 (default) */
   uint32_t threads;  /**< at most this many; 1 starts none; 0 as many as TBB gives */
   uint32_t isa;      /**< a sobb_isa; never changes the result */
-  uint64_t memory_limit; /**< bytes that the build may hold at once, Embree's included; 0 for none */
+  uint64_t memory_limit; /**< bytes held at once at most, Embree's included; 0 for none */
   const sobb_allocator* allocator; /**< copied; NULL for the library's own */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
   /**
@@ -287,35 +287,35 @@ SOBB_API sobb_status sobb_bytes(const sobb_hierarchy* hierarchy, const void** da
 typedef struct sobb_info {
   uint32_t struct_size;
   uint32_t format_version;
-  uint32_t volume;   /**< a sobb_volume */
-  uint32_t k;        /**< planes of the direction table; 6 for the AABB */
-  uint32_t quality;  /**< a sobb_quality, as built */
-  uint32_t strategy; /**< a sobb_strategy, as built */
-  uint32_t width;    /**< children a node at most */
-  uint32_t depth;    /**< nodes on the longest way down, the root counted */
-  uint64_t triangles;   /**< of the input, degenerate ones included */
-  uint64_t degenerate;  /**< of those, the ones without area */
-  uint64_t references;  /**< in leaves; more than triangles after spatial splits */
+  uint32_t volume;     /**< a sobb_volume */
+  uint32_t k;          /**< planes of the direction table; 6 for the AABB */
+  uint32_t quality;    /**< a sobb_quality, as built */
+  uint32_t strategy;   /**< a sobb_strategy, as built */
+  uint32_t width;      /**< children a node at most */
+  uint32_t depth;      /**< nodes on the longest way down, the root counted */
+  uint64_t triangles;  /**< of the input, degenerate ones included */
+  uint64_t degenerate; /**< of those, the ones without area */
+  uint64_t references; /**< in leaves; more than triangles after spatial splits */
   uint64_t nodes;
   uint64_t leaves;
-  uint64_t blocks;      /**< of four triangles */
-  uint64_t axes_nodes;  /**< nodes whose shared basis is the axes */
+  uint64_t blocks;       /**< of four triangles */
+  uint64_t axes_nodes;   /**< nodes whose shared basis is the axes */
   uint64_t shared_nodes; /**< nodes with another basis shared by all children */
-  uint64_t own_nodes;   /**< nodes with a basis for each child */
-  uint64_t bytes;       /**< of the file, and in memory */
+  uint64_t own_nodes;    /**< nodes with a basis for each child */
+  uint64_t bytes;        /**< of the file, and in memory */
   uint64_t node_bytes;
   uint64_t triangle_bytes;
   uint64_t source_hash; /**< XXH3-64 of the input's vertices and indices as used */
   float bounds_min[3];  /**< the input's box */
   float bounds_max[3];
-  double inner_area;    /**< sum of the inner children's areas over the box's area */
-  double leaf_area;     /**< sum of the leaves' areas over the box's area */
+  double inner_area; /**< sum of the inner children's areas over the box's area */
+  double leaf_area;  /**< sum of the leaves' areas over the box's area */
   /* Of the build, in milliseconds and bytes; zero for a hierarchy that was opened. */
-  double topology_ms;   /**< primitive bounds and Embree's builder */
-  double collapse_ms;   /**< binary to wide */
-  double volume_ms;     /**< k-DOPs, volumes, nodes and triangle blocks */
+  double topology_ms; /**< primitive bounds and Embree's builder */
+  double collapse_ms; /**< binary to wide */
+  double volume_ms;   /**< k-DOPs, volumes, nodes and triangle blocks */
   double total_ms;
-  uint64_t peak_bytes;  /**< the most held at once, Embree's builder included */
+  uint64_t peak_bytes; /**< the most held at once, Embree's builder included */
 } sobb_info;
 
 /** Fills @p info up to its struct_size. Thread-safe. Cost: O(nodes). */
@@ -368,11 +368,11 @@ enum {
 /** Options of the tracing calls. Zero in a member means its default. */
 typedef struct sobb_trace_options {
   uint32_t struct_size;
-  uint32_t flags;   /**< SOBB_TRACE_ bits; never change the result */
-  uint32_t threads; /**< at most this many; 1 starts none; 0 as many as TBB gives */
-  uint32_t isa;     /**< a sobb_isa; never changes the result */
-  sobb_count* counts;     /**< one a ray, or NULL; asks for the single-ray kernel */
-  uint64_t* invalid_rays; /**< receives how many rays were SOBB_INVALID, or NULL */
+  uint32_t flags;                  /**< SOBB_TRACE_ bits; never change the result */
+  uint32_t threads;                /**< at most this many; 1 starts none; 0 as many as TBB gives */
+  uint32_t isa;                    /**< a sobb_isa; never changes the result */
+  sobb_count* counts;              /**< one a ray, or NULL; asks for the single-ray kernel */
+  uint64_t* invalid_rays;          /**< receives how many rays were SOBB_INVALID, or NULL */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
 } sobb_trace_options;
 
