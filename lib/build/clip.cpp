@@ -32,8 +32,8 @@ double largest_coordinate(const Corners& triangle) {
 
 // A box that grows by points in double.
 struct Extent {
-  double lower[3] = {DBL_MAX, DBL_MAX, DBL_MAX};
-  double upper[3] = {-DBL_MAX, -DBL_MAX, -DBL_MAX};
+  double lower[3] = {FLT_MAX, FLT_MAX, FLT_MAX};
+  double upper[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
 
   void add(const double point[3]) {
     for (int k = 0; k < 3; ++k) {
@@ -42,7 +42,7 @@ struct Extent {
     }
   }
 
-  // Within `box`, outward by `error`; never inside out.
+  // Within `box`, outward by `error`; inside out only without a point.
   Box within(const Box& box, double error) const {
     Box result;
     for (int k = 0; k < 3; ++k) {
@@ -66,7 +66,12 @@ int clip_to_plane(const double (*polygon)[3], int count, int axis, double plane,
     if (side_a >= 0) std::copy(a, a + 3, result[kept++]);
     if ((side_a > 0 && side_b < 0) || (side_a < 0 && side_b > 0)) {
       const double s = side_a / (side_a - side_b);
-      for (int k = 0; k < 3; ++k) result[kept][k] = a[k] + s * (b[k] - a[k]);
+      // Never beyond the edge's ends, whatever is rounded: so the polygon rises and falls once
+      // along each axis, and no plane adds more than one vertex.
+      for (int k = 0; k < 3; ++k) {
+        result[kept][k] =
+            std::clamp(a[k] + s * (b[k] - a[k]), std::min(a[k], b[k]), std::max(a[k], b[k]));
+      }
       result[kept++][axis] = plane;
     }
   }

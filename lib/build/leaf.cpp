@@ -33,6 +33,12 @@ void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& dire
     }
     for (int j = 0; j < polygon_count; ++j) points[count++] = relative(polygon[j], centre);
   }
+  if (count == 0) {
+    // Every reference's box misses its triangle: nothing can be hit here, but a volume there is.
+    const float* corner = leaf.references[0].box.lower;
+    const double point[3] = {corner[0], corner[1], corner[2]};
+    points[count++] = relative(point, centre);
+  }
   kernels.fit(directions, points, count, kdop);
 }
 

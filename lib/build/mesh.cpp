@@ -104,6 +104,9 @@ Mesh::Mesh(const sobb_triangles& triangles, const Scheduler& scheduler)
     fail(SOBB_ERROR_TOO_LARGE, "%llu triangles, more than %llu", static_cast<llu>(triangle_count_),
          static_cast<llu>(kMaxTriangles));
   }
+  if (triangles.reserved != 0) {
+    fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: reserved is %u", triangles.reserved);
+  }
   if (vertices_ == nullptr) fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: vertices is NULL");
   if (indices_ == nullptr) fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: indices is NULL");
   if (stride_ < sizeof(Point) || stride_ % sizeof(float) != 0) {
