@@ -195,13 +195,13 @@ typedef enum sobb_strategy {
 /** Options of sobb_build(). Zero in a member means its default. */
 typedef struct sobb_build_options {
   uint32_t struct_size;
-  uint32_t volume;   /**< a sobb_volume */
-  uint32_t k;        /**< planes of the k-DOP: 32, 48 or 64 (default); ignored for the AABB */
-  uint32_t quality;  /**< a sobb_quality */
-  uint32_t strategy; /**< a sobb_strategy */
-  uint32_t width;    /**< children a node: 4 or 8 (default) */
-  uint32_t threads;  /**< at most this many; 1 starts none; 0 as many as TBB gives */
-  uint32_t isa;      /**< a sobb_isa; never changes the result */
+  uint32_t volume;       /**< a sobb_volume */
+  uint32_t k;            /**< planes of the k-DOP: 32, 48 or 64 (default); ignored for the AABB */
+  uint32_t quality;      /**< a sobb_quality */
+  uint32_t strategy;     /**< a sobb_strategy */
+  uint32_t width;        /**< children a node: 4 or 8 (default) */
+  uint32_t threads;      /**< at most this many; 1 starts none; 0 as many as TBB gives */
+  uint32_t isa;          /**< a sobb_isa; never changes the result */
   uint64_t memory_limit; /**< bytes held at once at most, Embree's included; 0 for none */
   const sobb_allocator* allocator; /**< copied; NULL for the library's own */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
