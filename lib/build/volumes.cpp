@@ -92,7 +92,8 @@ class VolumeMaker {
   template <int W>
   void make_node(const WideNode& wide, const Bounded* const* child, Node<W>& node,
                  Bounded& bounded) const {
-    bounded.kdop = child[0]->kdop;
+    // A node has children, which the analyzer cannot know.
+    bounded.kdop = child[0]->kdop;  // NOLINT(clang-analyzer-core.NonNullParamChecker)
     for (uint32_t i = 1; i < wide.child_count; ++i) bounded.kdop.merge(child[i]->kdop);
     find_basis(bounded);
     const NodeBases bases = choose_bases(wide.child_count, child, bounded.area);

@@ -23,6 +23,7 @@ sobb_hierarchy::sobb_hierarchy(std::shared_ptr<Memory> of, sobb::Image bytes,
 
 namespace sobb {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): it is moved on
 sobb_hierarchy* make_hierarchy(std::shared_ptr<Memory> memory, Image image, const FileView& view) {
   std::pmr::polymorphic_allocator<> allocator(memory.get());
   auto* hierarchy = allocator.new_object<sobb_hierarchy>(std::move(memory), std::move(image), view);
