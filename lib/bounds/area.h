@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "format/layout.h"
+#include "bounds/basis.h"
 
 namespace sobb {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "format/layout.h"
+#include "bounds/basis.h"
 
 namespace sobb {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "format/layout.h"
+#include "bounds/basis.h"
 
 namespace sobb {
 

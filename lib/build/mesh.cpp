@@ -17,7 +17,6 @@ namespace {
 
 constexpr uint64_t kGrain = 1 << 16;
 constexpr float kLargest = 0x1p60F;
-constexpr uint64_t kMaxTriangles = 0xFFFFFFFD;
 
 using llu = unsigned long long;
 
@@ -100,9 +99,9 @@ Mesh::Mesh(const sobb_triangles& triangles, const Scheduler& scheduler)
       indices_(triangles.indices),
       triangle_count_(triangles.triangle_count) {
   if (triangle_count_ == 0) fail(SOBB_ERROR_EMPTY, "the mesh has no triangle");
-  if (triangle_count_ > kMaxTriangles) {
+  if (triangle_count_ > SOBB_MAX_TRIANGLES) {
     fail(SOBB_ERROR_TOO_LARGE, "%llu triangles, more than %llu", static_cast<llu>(triangle_count_),
-         static_cast<llu>(kMaxTriangles));
+         llu{SOBB_MAX_TRIANGLES});
   }
   if (triangles.reserved != 0) {
     fail(SOBB_ERROR_INVALID_ARGUMENT, "triangles: reserved is %u", triangles.reserved);

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "bounds/basis.h"
+
 namespace sobb {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian");
@@ -16,11 +18,9 @@ inline constexpr uint8_t kMagic[8] = {0xF5, 'S', 'O', 'B', 'B', '\r', '\n', 0x1A
 inline constexpr uint32_t kFormatVersion = 1;
 inline constexpr uint64_t kSectionAlignment = 64;
 inline constexpr uint64_t kChecksumChunk = uint64_t{1} << 20;
-inline constexpr uint32_t kMaxDirections = 32;  // five bits an index
-inline constexpr uint32_t kMaxDepth = 96;       // of nodes; bounds the traversal stack
+inline constexpr uint32_t kMaxDepth = 96;  // of nodes; bounds the traversal stack
 inline constexpr uint32_t kMaxSections = 64;
 inline constexpr uint32_t kNoPrimitive = 0xFFFFFFFF;
-inline constexpr uint64_t kMaxTriangles = 0xFFFFFFFD;  // 2^32 - 3: two values are no primitive
 
 struct FileHeader {
   uint8_t magic[8];
@@ -54,11 +54,7 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-// Section kDirections: K of them. Unit normals within rounding; the first three of an AABB's table
-// are the axes.
-struct Direction {
-  float x, y, z;
-};
+// Section kDirections: K of them; an AABB's are the axes.
 static_assert(sizeof(Direction) == 12);
 
 // A node of W children, 32 W bytes, structure of arrays. Child i's volume is the intersection of
@@ -86,13 +82,6 @@ template <int W>
 constexpr uint32_t child_count(const Node<W>& node) {
   return (node.meta[0] & kChildCountMask) >> kChildCountShift;
 }
-
-// The j-th direction of a basis, and a basis of three directions.
-constexpr uint32_t basis_direction(uint32_t basis, int j) { return basis >> (5 * j) & 31; }
-constexpr uint16_t make_basis(uint32_t a, uint32_t b, uint32_t c) {
-  return static_cast<uint16_t>(a | b << 5 | c << 10);
-}
-inline constexpr uint16_t kAxesBasis = make_basis(0, 1, 2);
 
 // Four triangles, structure of arrays. Unused lanes are zero with primitive kNoPrimitive. A leaf of
 // n triangles is ceil(n / 4) consecutive blocks, filled from the first lane on.

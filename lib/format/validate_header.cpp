@@ -25,7 +25,7 @@ void validate_fields(const FileHeader& header, const char* name) {
   for (const float c : header.centre) refuse_unless(within(c, kMaxCoordinate), "centre", c);
   refuse_unless(within(header.radius, kMaxExtent) && !std::signbit(header.radius), "radius",
                 header.radius);
-  refuse_unless(header.triangle_count >= 1 && header.triangle_count <= kMaxTriangles,
+  refuse_unless(header.triangle_count >= 1 && header.triangle_count <= SOBB_MAX_TRIANGLES,
                 "triangle_count", static_cast<double>(header.triangle_count));
   for (const uint64_t r : header.reserved1) {
     refuse_unless(r == 0, "reserved1", static_cast<double>(r));

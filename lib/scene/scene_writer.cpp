@@ -14,7 +14,6 @@ namespace sobb {
 namespace {
 
 constexpr uint64_t kMaxVertices = uint64_t(1) << 32;
-constexpr uint64_t kMaxTriangles = (uint64_t(1) << 32) - 3;
 
 // Half as much again for an array of triples that is full, so that growing stays cheap.
 uint64_t roomy(uint64_t size, uint64_t max_triples) {
@@ -112,15 +111,15 @@ void SceneWriter::grow_vertices() {
 
 void SceneWriter::grow_indices() {
   const uint64_t size = scene_.indices.size();
-  if (size / 3 >= kMaxTriangles) {
+  if (size / 3 >= SOBB_MAX_TRIANGLES) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 - 3 triangles", name_.c_str());
   }
-  reserve(scene_.indices, roomy(size, kMaxTriangles));
+  reserve(scene_.indices, roomy(size, SOBB_MAX_TRIANGLES));
 }
 
 void SceneWriter::check_counts(uint64_t vertices, uint64_t triangles) const {
   if (vertices > kMaxVertices - vertex_count() ||
-      triangles > kMaxTriangles - scene_.indices.size() / 3) {
+      triangles > SOBB_MAX_TRIANGLES - scene_.indices.size() / 3) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices or 2^32 - 3 triangles", name_.c_str());
   }
 }

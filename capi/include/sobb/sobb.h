@@ -63,7 +63,7 @@ typedef enum sobb_status {
   SOBB_ERROR_EMPTY = 2,            /**< no triangle at all */
   SOBB_ERROR_INDEX = 3,            /**< a triangle names a vertex that does not exist */
   SOBB_ERROR_NOT_FINITE = 4,       /**< a vertex coordinate is NaN or infinite */
-  SOBB_ERROR_TOO_LARGE = 5,        /**< a coordinate beyond 2^60, or 2^32 - 2 triangles or more */
+  SOBB_ERROR_TOO_LARGE = 5,        /**< a coordinate beyond 2^60, or more than SOBB_MAX_TRIANGLES */
   SOBB_ERROR_OUT_OF_MEMORY = 6,    /**< an allocation failed */
   SOBB_ERROR_MEMORY_LIMIT = 7,     /**< the caller's memory limit would be exceeded */
   SOBB_ERROR_CANCELLED = 8,        /**< the progress callback asked to stop */
@@ -151,6 +151,9 @@ typedef struct sobb_scheduler {
 
 /* ------------------------------------------------------------------------ triangles in -- */
 
+/** The most triangles of a mesh: 2^32 - 3, since two values of sobb_hit::primitive are none. */
+#define SOBB_MAX_TRIANGLES 0xFFFFFFFDu
+
 /**
  * Indexed triangles, borrowed for the length of a call. No alignment is asked beyond `float`'s.
  * Degenerate triangles keep their index and are never hit.
@@ -162,7 +165,7 @@ typedef struct sobb_triangles {
   uint64_t vertex_count;   /**< at most 2^32 */
   uint64_t vertex_stride;  /**< bytes from vertex to vertex, a multiple of 4; 0 means 12 */
   const uint32_t* indices; /**< three a triangle, tightly packed */
-  uint64_t triangle_count; /**< 1 to 2^32 - 3 */
+  uint64_t triangle_count; /**< 1 to SOBB_MAX_TRIANGLES */
 } sobb_triangles;
 
 /* ------------------------------------------------------------------------------- build -- */
