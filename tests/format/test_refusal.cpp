@@ -104,7 +104,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoTriangle", SOBB_ERROR_FORMAT_HEADER, "header: triangle_count is 0",
                 [](SmallFile& f) { f.parts.header->triangle_count = 0; }},
         Refusal{"TooManyTriangles", SOBB_ERROR_FORMAT_HEADER, "header: triangle_count is 4.29497e",
-                [](SmallFile& f) { f.parts.header->triangle_count = kMaxTriangles + 1; }},
+                [](SmallFile& f) {
+                  f.parts.header->triangle_count = uint64_t{SOBB_MAX_TRIANGLES} + 1;
+                }},
         Refusal{"Reserved0", SOBB_ERROR_FORMAT_HEADER, "header: reserved0 is 1",
                 [](SmallFile& f) { f.parts.header->reserved0 = 1; }},
         Refusal{"Reserved1", SOBB_ERROR_FORMAT_HEADER, "header: reserved1 is 1",
