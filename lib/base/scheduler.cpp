@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/scheduler.h"
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -63,7 +64,10 @@ void Scheduler::run_in_arena(void (*body)(void*), void* context) const {
     body(context);
     return;
   }
-  tbb::task_arena arena(serial ? 1 : static_cast<int>(threads_));
+  // TBB never runs more than its limit, complains of a larger arena, and allocates all its slots.
+  const size_t limit =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  tbb::task_arena arena(serial ? 1 : static_cast<int>(std::min<size_t>(threads_, limit)));
   arena.execute([&] { body(context); });
 }
 

@@ -2,6 +2,7 @@
 #include "build/topology.h"
 
 #include <algorithm>
+#include <atomic>
 #include <new>
 #include <vector>
 
@@ -66,6 +67,8 @@ struct Topology::Builder {
   double progress_end;
   RTCDevice device = nullptr;
   RTCBVH bvh = nullptr;
+  std::atomic<bool> limit_met{false};  // the memory limit refused Embree something
+  std::atomic<bool> starved{false};    // a node or leaf got no memory, and is missing
 
   Builder(const Mesh& mesh, Memory& memory, Progress& progress, double progress_end)
       : mesh(mesh), memory(memory), progress(progress), progress_end(progress_end) {}
@@ -76,8 +79,18 @@ struct Topology::Builder {
   Builder(const Builder&) = delete;
   Builder& operator=(const Builder&) = delete;
 
-  static void* create_node(RTCThreadLocalAllocator allocator, unsigned, void*) {
-    void* at = rtcThreadLocalAlloc(allocator, sizeof(InnerNode), alignof(InnerNode));
+  // For a node or leaf; null without memory. Embree goes on with such a node, so that all callbacks
+  // see it, until on_progress() stops the build.
+  void* allocate(RTCThreadLocalAllocator allocator, size_t size, size_t alignment) {
+    void* at = rtcThreadLocalAlloc(allocator, size, alignment);
+    if (at == nullptr) starved = true;
+    return at;
+  }
+
+  static void* create_node(RTCThreadLocalAllocator allocator, unsigned, void* user) {
+    void* at =
+        static_cast<Builder*>(user)->allocate(allocator, sizeof(InnerNode), alignof(InnerNode));
+    if (at == nullptr) return nullptr;
     auto* node = new (at) InnerNode;
     node->is_leaf = false;
     return static_cast<TopologyNode*>(node);
@@ -90,21 +103,25 @@ struct Topology::Builder {
   // Called when the children are complete.
   static void set_children(void* node, void** children, unsigned count, void*) {
     InnerNode* parent = inner(node);
+    if (parent == nullptr) return;
     parent->reference_count = 0;
     for (unsigned i = 0; i < count; ++i) {
+      if (children[i] == nullptr) return;
       parent->child[i] = static_cast<const TopologyNode*>(children[i]);
       parent->reference_count += parent->child[i]->reference_count;
     }
   }
 
   static void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
+    if (node == nullptr) return;
     for (unsigned i = 0; i < count; ++i) inner(node)->box[i] = to_box(*bounds[i]);
   }
 
   static void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
-                           size_t count, void*) {
-    void* at = rtcThreadLocalAlloc(allocator, sizeof(LeafNode) + count * sizeof(Reference),
-                                   alignof(LeafNode));
+                           size_t count, void* user) {
+    void* at = static_cast<Builder*>(user)->allocate(
+        allocator, sizeof(LeafNode) + count * sizeof(Reference), alignof(LeafNode));
+    if (at == nullptr) return nullptr;
     auto* leaf = new (at) LeafNode;
     auto* references = new (leaf + 1) Reference[count];
     for (size_t i = 0; i < count; ++i) {
@@ -135,22 +152,25 @@ struct Topology::Builder {
 
   static bool on_progress(void* user, double fraction) {
     auto* self = static_cast<Builder*>(user);
-    return self->progress.report(0, self->progress_end, std::min(fraction, 1.0));
+    return !self->starved && self->progress.report(0, self->progress_end, std::min(fraction, 1.0));
   }
 
   static bool on_memory(void* user, ssize_t bytes, bool) {
-    return static_cast<Builder*>(user)->memory.count_foreign(bytes) || bytes <= 0;
+    auto* self = static_cast<Builder*>(user);
+    if (self->memory.count_foreign(bytes)) return true;
+    self->limit_met = true;
+    return false;
   }
 
   // Turns Embree's failure into ours.
   [[noreturn]] void fail_build() {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error == RTC_ERROR_CANCELLED) fail(SOBB_ERROR_CANCELLED, "the build was cancelled");
-    if (memory.limit() != 0 && memory.held() > memory.limit()) {
+    if (limit_met) {
       fail(SOBB_ERROR_MEMORY_LIMIT, "memory limit: the topology builder needs more than %llu bytes",
            static_cast<unsigned long long>(memory.limit()));
     }
-    if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    const RTCError error = rtcGetDeviceError(device);
+    if (starved || error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    if (error == RTC_ERROR_CANCELLED) fail(SOBB_ERROR_CANCELLED, "the build was cancelled");
     fail(SOBB_ERROR_INTERNAL, "Embree's builder failed with error %d", static_cast<int>(error));
   }
 
@@ -198,7 +218,7 @@ struct Topology::Builder {
     arguments.userPtr = this;
     const void* root = nullptr;
     scheduler.within_arena([&] { root = rtcBuildBVH(&arguments); });
-    if (root == nullptr) fail_build();
+    if (root == nullptr || starved) fail_build();
     return static_cast<const TopologyNode*>(root);
   }
 };
