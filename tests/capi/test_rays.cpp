@@ -33,7 +33,7 @@ class Rays : public testing::TestWithParam<uint32_t> {
 
   // Traces all ways, expects them to agree, and returns the hits.
   std::vector<sobb_hit> trace_all(const std::vector<sobb_ray>& rays, uint64_t invalid) const {
-    const std::vector<sobb_hit> expected = oracle(rays);
+    std::vector<sobb_hit> expected = oracle(rays);
     for (const uint32_t flags : {0U, static_cast<uint32_t>(SOBB_TRACE_COHERENT)}) {
       uint64_t seen = 12345;
       sobb_trace_options options = trace_options(flags);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saving and opening.
-#include <cstring>
+#include <algorithm>
 #include <utility>
 
 #include "../guard.h"
@@ -67,7 +67,7 @@ sobb_status sobb_open_memory(const void* data, uint64_t size, const sobb_open_op
     }
     auto memory = std::make_shared<Memory>(known.allocator, known.memory_limit);
     Image image = Image::allocate(memory, size);
-    std::memcpy(image.bytes().data(), data, size);
+    std::copy_n(static_cast<const std::byte*>(data), size, image.bytes().data());
     *out = open_image(std::move(memory), std::move(image), "memory", known);
   });
 }
