@@ -138,9 +138,7 @@ def canonical(directions):
 
 def optimise(count, objective, starts, seed):
     random = np.random.default_rng([seed, count])
-    candidates = [
-        improve(spread(count, random), OBJECTIVES[objective], 0.1) for _ in range(starts)
-    ]
+    candidates = [improve(spread(count, random), OBJECTIVES[objective], 0.1) for _ in range(starts)]
     best = max(candidates, key=lambda candidate: candidate[1])[0]
     return canonical(best).astype(np.float32)
 
