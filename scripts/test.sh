@@ -61,9 +61,12 @@ tidy() {
     { grep -vE '^clang-tidy-14 |^[0-9]+ warnings generated|^$' || true; }
 }
 
+# The scripts lie outside the package, so they are told its settings.
 ruff() {
-  .venv/bin/ruff check --config python/pyproject.toml python scripts &&
-    .venv/bin/ruff format --config python/pyproject.toml --check python scripts
+  .venv/bin/ruff check python &&
+    .venv/bin/ruff check --config python/pyproject.toml scripts &&
+    .venv/bin/ruff format --check python &&
+    .venv/bin/ruff format --check --config python/pyproject.toml scripts
 }
 
 check "release build, g++" scripts/setup.sh --tests

@@ -27,13 +27,19 @@ if(BUILD_SHARED_LIBS)
   sobb_add_consumer_tests(shared ${consumer_dir}/shared_prefix)
 endif()
 
-# Compiled as this build is, so that a compiler cache has the objects.
-add_test(NAME consumer.static.install COMMAND ${CMAKE_CTEST_COMMAND}
-  --build-and-test ${PROJECT_SOURCE_DIR} ${consumer_dir}/static_build
-  --build-generator ${CMAKE_GENERATOR} --build-target install
-  --build-options -DBUILD_SHARED_LIBS=OFF -DCMAKE_INSTALL_PREFIX=${consumer_dir}/static_prefix
-  -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -DSOBB_WERROR=${SOBB_WERROR}
-  -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-  -DCMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
-  -DSOBB_BUILD_TESTS=OFF -DSOBB_BUILD_BENCH=OFF -DSOBB_BUILD_EXAMPLES=OFF)
+# Compiled as this build is, so that a compiler cache has the objects. In two steps: a process that
+# has configured leaves another locale to what it starts, and the cache counts that.
+add_test(NAME consumer.static.configure COMMAND ${CMAKE_COMMAND}
+  -S ${PROJECT_SOURCE_DIR} -B ${consumer_dir}/static_build -G ${CMAKE_GENERATOR}
+  -D BUILD_SHARED_LIBS=OFF -D CMAKE_INSTALL_PREFIX=${consumer_dir}/static_prefix
+  -D CMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} -D SOBB_WERROR=${SOBB_WERROR}
+  -D CMAKE_C_COMPILER=${CMAKE_C_COMPILER} -D CMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+  -D CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+  -D SOBB_BUILD_TESTS=OFF -D SOBB_BUILD_BENCH=OFF -D SOBB_BUILD_EXAMPLES=OFF)
+add_test(NAME consumer.static.install COMMAND ${CMAKE_COMMAND}
+  --build ${consumer_dir}/static_build --target install)
+set_tests_properties(consumer.static.configure PROPERTIES
+  FIXTURES_SETUP consumer_static_configured)
+set_tests_properties(consumer.static.install PROPERTIES
+  FIXTURES_REQUIRED consumer_static_configured)
 sobb_add_consumer_tests(static ${consumer_dir}/static_prefix --static)
