@@ -9,6 +9,7 @@
 
 #include "bounds/bounds_kernels.h"
 #include "bounds/each_isa.h"
+#include "bounds/same_bits.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -78,10 +79,6 @@ double allowed_slack(const DirectionTable& table, uint32_t k, const Cloud& cloud
   const double reach = std::fabs(table.x[k]) * largest[0] + std::fabs(table.y[k]) * largest[1] +
                        std::fabs(table.z[k]) * largest[2];
   return 12 * kUnit * reach + 0x1p-139;
-}
-
-bool same_bits(const float (&a)[kMaxDirections], const float (&b)[kMaxDirections]) {
-  return std::memcmp(a, b, sizeof a) == 0;
 }
 
 void check(const Cloud& cloud, const DirectionTable& table, const std::string& what) {

@@ -18,6 +18,12 @@ struct ReleaseHierarchy {
 };
 using HierarchyHandle = std::unique_ptr<sobb_hierarchy, ReleaseHierarchy>;
 
+// What an output holds before a call that is to leave it alone; no hierarchy.
+inline sobb_hierarchy* untouched_handle() {
+  static char mark;
+  return reinterpret_cast<sobb_hierarchy*>(&mark);
+}
+
 inline sobb_build_options build_options(uint32_t volume = 0, uint32_t quality = 0,
                                         uint32_t threads = 1) {
   sobb_build_options options = {};

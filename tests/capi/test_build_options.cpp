@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kQualities[] = {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH};
 
-sobb_hierarchy* const kUntouched = reinterpret_cast<sobb_hierarchy*>(uintptr_t{0x1234});
+sobb_hierarchy* const kUntouched = untouched_handle();
 
 // A build that fails: the status; the message is the thread's, the output is as it was.
 sobb_status failure_of(const sobb_triangles* triangles, const sobb_build_options* options) {
@@ -105,7 +105,7 @@ TEST(BuildOptions, AShorterStructHasDefaultsBeyond) {
   // Nonsense beyond the size is not looked at.
   options.memory_limit = 1;
   options.isa = 77;
-  options.allocator = reinterpret_cast<const sobb_allocator*>(uintptr_t{8});
+  options.allocator = reinterpret_cast<const sobb_allocator*>(untouched_handle());
   EXPECT_EQ(info_with(offsetof(sobb_build_options, isa)).width, 4u);
 }
 

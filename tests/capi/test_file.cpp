@@ -31,7 +31,7 @@ HierarchyHandle open_bytes(const std::string& bytes) {
 }
 
 sobb_status failure_of(const std::string& path, const sobb_open_options& options = open_options()) {
-  sobb_hierarchy* const untouched = reinterpret_cast<sobb_hierarchy*>(uintptr_t{0x1234});
+  sobb_hierarchy* const untouched = untouched_handle();
   sobb_hierarchy* out = untouched;
   const sobb_status status = sobb_open(path.c_str(), &options, &out);
   EXPECT_EQ(out, untouched);
@@ -79,8 +79,7 @@ TEST_F(File, SavedAndOpenedIsTheSame) {
 }
 
 TEST_F(File, OpenedFromMemoryIsACopy) {
-  std::string bytes = bytes_of(build_soup(soup_));
-  const std::string before = bytes;
+  const std::string before = bytes_of(build_soup(soup_));
   // At any alignment.
   for (size_t offset = 0; offset < 4; ++offset) {
     std::string shifted(offset, '\0');

@@ -105,6 +105,7 @@ TEST(Threads, TraceBuildAndReleaseAtOnce) {
   const std::vector<sobb_hit> expected = trace(shared, rays);
   std::atomic<int> different{0};
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([&, thread] {
       for (int round = 0; round < 8; ++round) {
@@ -128,6 +129,7 @@ TEST(Threads, ReleaseTheLastReference) {
   for (int round = 0; round < 50; ++round) {
     sobb_hierarchy* hierarchy = build_soup(random_soup(34, 20)).release();
     std::vector<std::thread> threads;
+    threads.reserve(4);
     for (int thread = 0; thread < 4; ++thread) {
       sobb_retain(hierarchy);
       threads.emplace_back([hierarchy] { sobb_release(hierarchy); });
