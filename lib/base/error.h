@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdarg>
+#include <cstddef>
 #include <cstdio>
 #include <stdexcept>
 #include <string>
@@ -20,10 +21,13 @@ class Error : public std::runtime_error {
   sobb_status status;
 };
 
+// Room for a path of the longest kind and what is wrong with it.
+inline constexpr size_t kLongestMessage = 4096 + 512;
+
 // Throws an Error with a printf-style message.
 [[noreturn]] __attribute__((format(printf, 2, 3))) inline void fail(sobb_status status,
                                                                     const char* format, ...) {
-  char message[1024];
+  char message[kLongestMessage];
   va_list arguments;
   va_start(arguments, format);
   std::vsnprintf(message, sizeof message, format, arguments);

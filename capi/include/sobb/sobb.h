@@ -126,8 +126,9 @@ SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out);
 
 /**
  * The caller's allocator. Every allocation of the library on behalf of a call that was given one
- * goes through it, as do those that the resulting hierarchy keeps. (Embree's builder allocates by
- * itself; its bytes are counted against the memory limit.) Called from several threads at once.
+ * goes through it, as do those that the resulting hierarchy keeps, but for some hundred bytes of
+ * bookkeeping. (Embree's builder allocates by itself; its bytes are counted against the memory
+ * limit.) Called from several threads at once.
  */
 typedef struct sobb_allocator {
   void* user;
@@ -329,7 +330,7 @@ SOBB_API sobb_status sobb_get_info(const sobb_hierarchy* hierarchy, sobb_info* i
 /**
  * A ray, 32 bytes: the points origin + t * direction with tmin <= t <= tmax (closed interval).
  * `direction` may have any length but zero; t is in its units. `tmin` is at least 0; `tmax` may be
- * infinite; a ray with tmin > tmax misses. Triangles are two-sided.
+ * infinite; a ray with tmin > tmax, or with tmin infinite, misses. Triangles are two-sided.
  */
 typedef struct sobb_ray {
   float origin[3];

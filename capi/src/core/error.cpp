@@ -8,7 +8,7 @@
 namespace {
 
 // Plain storage: setting a message never allocates, so it can report that memory ran out.
-thread_local char last_error[1024] = "";
+thread_local char last_error[sobb::kLongestMessage] = "";
 
 }  // namespace
 
