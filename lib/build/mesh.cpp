@@ -15,7 +15,7 @@
 namespace sobb {
 namespace {
 
-constexpr uint64_t kGrain = 1 << 16;
+constexpr uint64_t kGrain = 1 << 16;  // source_hash is defined by it
 constexpr float kLargest = 0x1p60F;
 
 using llu = unsigned long long;

@@ -48,6 +48,8 @@ struct MeshSummary {
   Point centre;
   float radius;  // no used vertex is further from the centre
   uint64_t degenerate_count;
+  // XXH3-64 over the XXH3-64 of each 65,536 triangles, a triangle being its nine coordinates and
+  // then its three indices.
   uint64_t source_hash;
 };
 

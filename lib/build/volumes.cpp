@@ -12,8 +12,8 @@ namespace sobb {
 namespace {
 
 // What a ray pays, in units of a node test with a shared basis. A test with a basis for each child
-// gathers from the ray's table: at 1.8 such nodes cost hair 4 % of its rays a second, from 3 on
-// they are few enough to cost nothing.
+// gathers from the ray's table: at 1.8 such nodes cost builtin:hairball 4 % of its rays a second,
+// from 3 on they are too few to tell.
 constexpr float kSharedCost = 1.0F;
 constexpr float kOwnCost = 3.0F;
 constexpr float kBlockCost = 1.0F;

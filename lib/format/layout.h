@@ -99,7 +99,7 @@ struct BuildRecord {
   uint32_t strategy;  // a sobb_strategy but DEFAULT
   uint64_t degenerate_count;
   uint64_t reference_count;  // triangles in leaves, each spatial split's parts counted
-  uint64_t source_hash;      // XXH3-64 of the vertex positions and indices as used
+  uint64_t source_hash;      // of the input (build/mesh.h)
   float bounds_min[3];       // of the vertices that triangles use
   float bounds_max[3];
   uint32_t reserved[2];  // zero

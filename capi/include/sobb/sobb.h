@@ -309,7 +309,7 @@ typedef struct sobb_info {
   uint64_t bytes;        /**< of the file, and in memory */
   uint64_t node_bytes;
   uint64_t triangle_bytes;
-  uint64_t source_hash; /**< XXH3-64 of the input's vertices and indices as used */
+  uint64_t source_hash; /**< of the input's vertices and indices as used (docs/format.md) */
   float bounds_min[3];  /**< the input's box */
   float bounds_max[3];
   double inner_area; /**< sum of the inner children's areas over the box's area */
