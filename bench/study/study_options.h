@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of sobb_study, and its subcommands: a question of docs/study.md each.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sobb::study {
+
+struct StudyOptions {
+  std::vector<std::string> scenes;      // each a file or builtin:NAME[:TRIANGLES][@DEGREES]
+  std::vector<std::string> directions;  // files of direction tables, lines `x y z`
+  std::string out;                      // the JSON's file; empty: standard output
+  uint32_t threads = 0;                 // 0: as many as TBB gives
+  uint32_t size = 256;                  // one diffuse ray for each of size x size pixels that hit
+  uint32_t nodes = 10000;               // sampled a scene
+  uint32_t optimised_nodes = 1000;      // of each kind, with free normals
+};
+
+// Each writes its JSON and returns the program's exit code. They throw sobb::Error and
+// std::runtime_error.
+int areas(const StudyOptions& options);
+int tables(const StudyOptions& options);
+int clipping(const StudyOptions& options);
+int sharing(const StudyOptions& options);
+int topologies(const StudyOptions& options);
+
+}  // namespace sobb::study
