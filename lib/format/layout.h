@@ -78,8 +78,9 @@ inline constexpr uint32_t kChildCountShift = 8;  // child 0 only: four bits, 1 t
 inline constexpr uint16_t kChildCountMask = 0xF << kChildCountShift;
 inline constexpr uint16_t kSharedBit = 1u << 12;  // child 0 only: every child has one basis
 
-template <int W>
-constexpr uint32_t child_count(const Node<W>& node) {
+// Of a node of any layout with this meta word.
+template <class AnyNode>
+constexpr uint32_t child_count(const AnyNode& node) {
   return (node.meta[0] & kChildCountMask) >> kChildCountShift;
 }
 

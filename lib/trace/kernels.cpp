@@ -10,53 +10,25 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "trace/file_volumes-inl.h"
 #include "trace/packet-inl.h"
-#include "trace/single-inl.h"
+#include "trace/trace_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The result of a query as its caller stores it.
-void store(const ClosestHit& best, sobb_hit& hit) { hit = best.result(); }
-void store(const ClosestHit& best, uint8_t& occluded) {
-  occluded = best.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
-}
-void store_invalid(sobb_hit& hit) { hit = ClosestHit::missed(SOBB_INVALID); }
-void store_invalid(uint8_t& occluded) { occluded = SOBB_OCCLUDED_INVALID; }
-
-template <int W, bool kAxes, Query kQuery, class Result>
-uint64_t trace_rays(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
-                    sobb_count* counts) {
-  uint64_t invalid = 0;
-  for (uint64_t i = 0; i < count; ++i) {
-    if (counts != nullptr) counts[i] = {};
-    if (!is_valid(rays[i])) {
-      store_invalid(results[i]);
-      ++invalid;
-      continue;
-    }
-    ClosestHit best(rays[i]);
-    if (counts != nullptr) {
-      trace_ray<W, kAxes, kQuery>(tracer, rays[i], best, Counter{counts[i]});
-    } else {
-      trace_ray<W, kAxes, kQuery>(tracer, rays[i], best, NoCounter{});
-    }
-    store(best, results[i]);
-  }
-  return invalid;
-}
-
 template <Query kQuery, class Result>
 uint64_t trace(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
                sobb_count* counts) {
+  const auto with = [&](auto volumes) HWY_ATTR {
+    return trace_rays<decltype(volumes), kQuery>(tracer, rays, count, results, counts);
+  };
   if (tracer.width == 4) {
-    return tracer.axes_only ? trace_rays<4, true, kQuery>(tracer, rays, count, results, counts)
-                            : trace_rays<4, false, kQuery>(tracer, rays, count, results, counts);
+    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
   }
-  return tracer.axes_only ? trace_rays<8, true, kQuery>(tracer, rays, count, results, counts)
-                          : trace_rays<8, false, kQuery>(tracer, rays, count, results, counts);
+  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
 }
 
 template <Query kQuery, class Result>
@@ -101,13 +73,13 @@ HWY_AFTER_NAMESPACE();
 namespace sobb {
 
 Tracer::Tracer(const FileView& view)
-    : directions(make_direction_table(view.directions)),
-      centre{view.header->centre[0], view.header->centre[1], view.header->centre[2]},
-      radius(view.header->radius),
+    : TraceScene{make_direction_table(view.directions),
+                 {view.header->centre[0], view.header->centre[1], view.header->centre[2]},
+                 view.header->radius,
+                 view.nodes,
+                 view.blocks.data()},
       width(view.header->width),
-      axes_only(view.header->volume == SOBB_VOLUME_AABB),
-      nodes(view.nodes),
-      blocks(view.blocks.data()) {}
+      axes_only(view.header->volume == SOBB_VOLUME_AABB) {}
 
 const TraceKernels& trace_kernels(sobb_isa isa) {
   return isa == SOBB_ISA_AVX2 ? N_AVX2::target_trace_kernels() : N_SSE4::target_trace_kernels();

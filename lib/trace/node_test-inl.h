@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray against the volumes of all children of a node. Included once for each Highway target.
+// One ray against the volumes of all children of a node: a child is met where the greatest near
+// distance of its slabs does not exceed the least far one. Included once for each Highway target.
 //
-// Per slab: near = p_near r + near_k, far = p_far r + far_k; a child is met where the greatest near
-// does not exceed the least far (T. Kay, J. Kajiya, "Ray Tracing Complex Scenes", 1986).
+// A class `Volumes` says what the volumes are, and so what the traversal is of:
+//   kWidth            children a node at most
+//   Node              with reference[kWidth] and meta[kWidth] as format/layout.h has them
+//   Ray               the ray's side of the tests, made of (const TraceScene&, const ScaledRay&)
+//   clip(ray, node, first, near, far)   clips the intervals of the children from `first` on
 #if defined(SOBB_TRACE_NODE_TEST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_NODE_TEST_INL_H
 #undef SOBB_TRACE_NODE_TEST_INL_H
@@ -12,9 +16,7 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
-
-#include "trace/ray_table-inl.h"
+#include "trace/slab_clip-inl.h"
 #include "trace/stack_key.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,66 +32,23 @@ struct NodeHits {
   uint32_t mask;
   alignas(64) uint32_t key_high[W];
 
-  StackKey key(const Node<W>& node, uint32_t child) const {
+  template <class Node>
+  StackKey key(const Node& node, uint32_t child) const {
     return static_cast<StackKey>(key_high[child]) << 32 | node.reference[child];
   }
 };
 
-// As many children at once as a vector of the target has lanes.
-template <int W>
-using ChildFloats = hn::CappedTag<float, W>;
-
-// The interval of one slab, with one direction for all children: its near plane is the lower one
-// for a ray that rises along it.
-template <int W, class V = hn::Vec<ChildFloats<W>>>
-HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], uint32_t direction,
-                            size_t first, V& near, V& far) {
-  const ChildFloats<W> d;
-  const uint32_t falls = std::bit_cast<uint32_t>(table.reciprocal[direction]) >> 31;
-  const V r = hn::Set(d, table.reciprocal[direction]);
-  near = hn::Max(
-      near, hn::MulAdd(hn::Load(d, slab[falls] + first), r, hn::Set(d, table.near[direction])));
-  far = hn::Min(
-      far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r, hn::Set(d, table.far[direction])));
-}
-
-// The same with a direction of its own for each child.
-template <int W, class V = hn::Vec<ChildFloats<W>>>
-HWY_INLINE void clip_own(const RayTable& table, const float (&slab)[2][W],
-                         hn::Vec<hn::RebindToSigned<ChildFloats<W>>> direction, size_t first,
-                         V& near, V& far) {
-  const ChildFloats<W> d;
-  const V r = hn::GatherIndex(d, table.reciprocal, direction);
-  const V lower = hn::Mul(hn::Load(d, slab[0] + first), r);
-  const V upper = hn::Mul(hn::Load(d, slab[1] + first), r);
-  near = hn::Max(near, hn::Add(hn::Min(lower, upper), hn::GatherIndex(d, table.near, direction)));
-  far = hn::Min(far, hn::Add(hn::Max(lower, upper), hn::GatherIndex(d, table.far, direction)));
-}
-
-// kAxes: the hierarchy is of AABBs, its directions are 0, 1, 2 everywhere.
-template <int W, bool kAxes>
-HWY_INLINE void test_node(const RayTable& table, const Node<W>& node, float tmin, float limit,
-                          NodeHits<W>& hits) {
+template <class Volumes, int W = Volumes::kWidth>
+HWY_INLINE void test_node(const typename Volumes::Ray& ray, const typename Volumes::Node& node,
+                          float tmin, float limit, NodeHits<W>& hits) {
   const ChildFloats<W> d;
   const hn::RebindToUnsigned<decltype(d)> du;
-  const hn::RebindToSigned<decltype(d)> di;
   const hn::Rebind<uint16_t, decltype(d)> d16;
   hits.mask = 0;
   for (size_t first = 0; first < W; first += hn::Lanes(d)) {
     auto near = hn::Set(d, tmin);
     auto far = hn::Set(d, limit);
-    if (kAxes || (node.meta[0] & kSharedBit) != 0) {
-      const uint32_t basis = kAxes ? kAxesBasis : node.basis[0];
-      for (int j = 0; j < 3; ++j) {
-        clip_shared<W>(table, node.slab[j], basis_direction(basis, j), first, near, far);
-      }
-    } else {
-      auto basis = hn::PromoteTo(di, hn::Load(d16, node.basis + first));
-      for (int j = 0; j < 3; ++j) {
-        clip_own<W>(table, node.slab[j], hn::And(basis, hn::Set(di, 31)), first, near, far);
-        basis = hn::ShiftRight<5>(basis);
-      }
-    }
+    Volumes::clip(ray, node, first, near, far);
     uint8_t bits[8] = {};
     hn::StoreMaskBits(d, hn::Le(near, far), bits);
     hits.mask |= static_cast<uint32_t>(bits[0]) << first;

@@ -60,7 +60,8 @@ struct RayTable {
   alignas(64) float near[kMaxDirections];
   alignas(64) float far[kMaxDirections];
 
-  void make(const DirectionTable& directions, const ScaledRay& ray) {
+  HWY_INLINE RayTable(const TraceScene& scene, const ScaledRay& ray) {
+    const DirectionTable& directions = scene.directions;
     const hn::CappedTag<float, 8> d;
     for (uint32_t k = 0; k < directions.count; k += hn::Lanes(d)) {
       const auto c = slab_coefficients(

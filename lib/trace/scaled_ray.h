@@ -30,12 +30,12 @@ struct ScaledRay {
   float reach;   // at least the distance from the origin to any vertex
   float error;   // e, how far slabs are widened for this ray (ray_table-inl.h)
 
-  ScaledRay(const Tracer& tracer, const sobb_ray& ray) {
+  ScaledRay(const TraceScene& scene, const sobb_ray& ray) {
     double largest = 0;
     double square = 0;
     for (int k = 0; k < 3; ++k) {
       largest = std::fmax(largest, std::fabs(static_cast<double>(ray.direction[k])));
-      origin[k] = ray.origin[k] - tracer.centre[k];
+      origin[k] = ray.origin[k] - scene.centre[k];
       square += static_cast<double>(origin[k]) * origin[k];
     }
     // A float is a normal double: its exponent is in the bits.
@@ -47,7 +47,7 @@ struct ScaledRay {
     }
     tmin = static_cast<float>(std::fmax(ray.tmin - kSmallestFloat, 0.0) * scale);
     const auto distance = static_cast<float>(std::sqrt(square));
-    reach = distance + tracer.radius;
+    reach = distance + scene.radius;
     error = 16 * 0x1p-24F * (distance + reach) + 0x1p-100F;
     if (!(distance <= kFurthest)) forgo_culling();
   }

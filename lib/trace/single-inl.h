@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One ray through the wide nodes, children nearest first. Included once for each Highway target.
+// One ray through the nodes, children nearest first, whatever their volumes and width. Included
+// once for each Highway target.
 #if defined(SOBB_TRACE_SINGLE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_SINGLE_INL_H
 #undef SOBB_TRACE_SINGLE_INL_H
@@ -60,25 +61,25 @@ HWY_INLINE bool test_leaf(const BlockRay& ray, const TriangleBlock* block, uint3
 }
 
 // Asks for what a key names, all of a node or as much of a leaf, before it is its turn.
-template <int W>
-HWY_INLINE void prefetch(const Tracer& tracer, StackKey key) {
-  const auto* nodes = static_cast<const Node<W>*>(tracer.nodes);
-  const void* at = key_is_leaf(key) ? static_cast<const void*>(tracer.blocks + key_index(key))
+template <class Node>
+HWY_INLINE void prefetch(const TraceScene& scene, StackKey key) {
+  const auto* nodes = static_cast<const Node*>(scene.nodes);
+  const void* at = key_is_leaf(key) ? static_cast<const void*>(scene.blocks + key_index(key))
                                     : static_cast<const void*>(nodes + key_index(key));
   const auto* bytes = static_cast<const uint8_t*>(at);
-  for (size_t line = 0; line < sizeof(Node<W>); line += 64) hwy::Prefetch(bytes + line);
+  for (size_t line = 0; line < sizeof(Node); line += 64) hwy::Prefetch(bytes + line);
 }
 
 // Pushes the children met but the nearest, furthest first, and returns the nearest's key.
-template <int W>
-HWY_INLINE StackKey push_but_nearest(const Tracer& tracer, const NodeHits<W>& hits,
-                                     const Node<W>& node, StackKey*& top) {
+template <int W, class Node>
+HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>& hits,
+                                     const Node& node, StackKey*& top) {
   uint32_t mask = hits.mask;
   const auto next = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
     const StackKey key = hits.key(node, child);
-    prefetch<W>(tracer, key);
+    prefetch<Node>(scene, key);
     return key;
   };
   StackKey nearest = next();
@@ -94,14 +95,15 @@ HWY_INLINE StackKey push_but_nearest(const Tracer& tracer, const NodeHits<W>& hi
   return nearest;
 }
 
-template <int W, bool kAxes, Query kQuery, class CounterType>
-HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit& best,
+template <class Volumes, Query kQuery, class CounterType>
+HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestHit& best,
                           CounterType counter) {
-  const ScaledRay scaled(tracer, ray);
+  const ScaledRay scaled(scene, ray);
   const BlockRay block_ray(ray, scaled);
-  RayTable table;
-  table.make(tracer.directions, scaled);
-  const auto* nodes = static_cast<const Node<W>*>(tracer.nodes);
+  const typename Volumes::Ray volume_ray(scene, scaled);
+  using Node = typename Volumes::Node;
+  constexpr int W = Volumes::kWidth;
+  const auto* nodes = static_cast<const Node*>(scene.nodes);
 
   StackKey stack[kMaxDepth * (W - 1) + 1];
   StackKey* top = stack;
@@ -110,16 +112,16 @@ HWY_INLINE void trace_ray(const Tracer& tracer, const sobb_ray& ray, ClosestHit&
   for (;;) {
     bool met = true;
     while (met && !key_is_leaf(key)) {
-      const Node<W>& node = nodes[key_index(key)];
+      const Node& node = nodes[key_index(key)];
       NodeHits<W> hits;
-      test_node<W, kAxes>(table, node, scaled.tmin, limit, hits);
+      test_node<Volumes>(volume_ray, node, scaled.tmin, limit, hits);
       counter.add_node(child_count(node));
       met = hits.mask != 0;
-      if (met) key = push_but_nearest(tracer, hits, node, top);
+      if (met) key = push_but_nearest(scene, hits, node, top);
     }
     if (met) {
       counter.add_leaf(key_triangles(key));
-      if (test_leaf<kQuery>(block_ray, tracer.blocks + key_index(key), key_triangles(key), ray.tmin,
+      if (test_leaf<kQuery>(block_ray, scene.blocks + key_index(key), key_triangles(key), ray.tmin,
                             limit, best)) {
         if (kQuery == Query::kAny) return;
         limit = scale_limit(best.limit, scaled.scale);

@@ -10,15 +10,19 @@
 
 namespace sobb {
 
-// Prepared once a hierarchy; borrowed from its image.
-struct Tracer {
+// What a traversal reads, whatever the nodes' volumes are. Borrowed.
+struct TraceScene {
   DirectionTable directions;
   float centre[3];
   float radius;
-  uint32_t width;
-  bool axes_only;  // the volumes are AABBs
   const void* nodes;
   const TriangleBlock* blocks;
+};
+
+// Prepared once a hierarchy; borrowed from its image.
+struct Tracer : TraceScene {
+  uint32_t width;
+  bool axes_only;  // the volumes are AABBs
 
   explicit Tracer(const FileView& view);
 };
