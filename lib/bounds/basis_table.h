@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the search for a basis needs of a direction table: one over |det| of every triple.
+// What the search for a basis needs of its directions: one over |det| of every triple.
 #pragma once
 
 #include <cstdint>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
-#include "bounds/direction_table.h"
+#include "bounds/basis.h"
 
 namespace sobb {
 
@@ -14,22 +15,40 @@ namespace sobb {
 // 0 whatever the third, and a nearly singular one could win (and its corners lie anywhere).
 inline constexpr double kSmallestDeterminant = 0.02;
 
+// A search takes more directions than a file does.
+inline constexpr uint32_t kMaxSearchedDirections = 128;
+
+// Holds 4 stride^3 bytes and little more: 128 KB for 32 directions, 8 MB for 128.
 class BasisTable {
  public:
-  BasisTable(const DirectionTable& directions, std::pmr::memory_resource& memory);
+  BasisTable(std::span<const Direction> directions, std::pmr::memory_resource& memory);
 
   uint32_t count() const { return count_; }
-  // 1 / |det[n_i n_j n_l]|, infinite for a triple flatter than kSmallestDeterminant; a row of
-  // kMaxDirections values over l.
+  // The length of every row, in floats: the count rounded up to whole vectors. Rows are padded
+  // with infinities and aligned to nothing.
+  uint32_t stride() const { return stride_; }
+
+  // 1 / |det[n_i n_j n_l]|, infinite for a triple flatter than kSmallestDeterminant; a row over l.
+  // The same bits for every order of the three.
   const float* inverse_determinants(uint32_t i, uint32_t j) const {
-    return &inverse_[(i * kMaxDirections + j) * kMaxDirections];
+    return &inverse_[(size_t{i} * stride_ + j) * stride_];
   }
-  // 1 / (1 - (n_i . n_j)^2), infinite for i = j; a row of kMaxDirections values over j.
-  const float* inverse_sine_squares(uint32_t i) const { return &inverse_sine_[i * kMaxDirections]; }
+  // The least of the row above, so that no basis with i and j has less; a row over j.
+  const float* least_inverses(uint32_t i) const { return &least_[size_t{i} * stride_]; }
+  float least_inverse() const { return least_of_all_; }  // 1, but for rounding, given the axes
+  // 1 / (1 - (n_i . n_j)^2), infinite where i and j are in no basis; a row over j.
+  const float* inverse_sine_squares(uint32_t i) const {
+    return &inverse_sine_[size_t{i} * stride_];
+  }
 
  private:
+  void set_triple(uint32_t i, uint32_t j, uint32_t l, float inverse);
+
   uint32_t count_;
+  uint32_t stride_;
+  float least_of_all_;
   std::pmr::vector<float> inverse_;
+  std::pmr::vector<float> least_;
   std::pmr::vector<float> inverse_sine_;
 };
 

@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "bounds/choose_one-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
 namespace HWY_NAMESPACE {
@@ -172,7 +174,7 @@ BasisChoice choose(const BasisTable& table, const Gram& gram, sobb_strategy stra
 }  // namespace
 
 const BoundsKernels& target_bounds_kernels() {
-  static constexpr BoundsKernels kKernels = {fit, add_to_gram, choose};
+  static constexpr BoundsKernels kKernels = {fit, add_to_gram, choose_one, choose};
   return kKernels;
 }
 

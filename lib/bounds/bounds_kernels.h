@@ -29,6 +29,12 @@ struct BasisChoice {
   float area = std::numeric_limits<float>::infinity();
 };
 
+// Three directions of a table, in rising order, and the area of the volume in their basis.
+struct TripleChoice {
+  uint32_t direction[3] = {0, 1, 2};
+  float area = std::numeric_limits<float>::infinity();
+};
+
 // Half a Gram matrix's sum of areas over |det|, doubled: what choose() minimises.
 float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis);
 
@@ -42,7 +48,10 @@ struct BoundsKernels {
   // Adds one volume to a Gram matrix. Widths are scaled (by one over the scene's radius), so that
   // no product overflows.
   void (*add_to_gram)(const Kdop& kdop, float scale, float weight, Gram& gram);
-  // The basis of least area by a strategy; equal areas go to the lowest indices.
+  // The basis of least area of one volume by a strategy; equal areas go to the lowest indices.
+  // `width` has table.stride() widths, scaled as above, zero past the table's count.
+  TripleChoice (*choose_one)(const BasisTable& table, const float* width, sobb_strategy strategy);
+  // The same for the volumes of a Gram matrix; the table is of kMaxDirections at most.
   BasisChoice (*choose)(const BasisTable& table, const Gram& gram, sobb_strategy strategy);
 };
 

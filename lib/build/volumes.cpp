@@ -42,7 +42,7 @@ class VolumeMaker {
         parts_(parts),
         kernels_(bounds_kernels(settings.isa)),
         directions_(make_direction_table(parts.directions)),
-        table_(directions_, memory),
+        table_(parts.directions, memory),
         scale_(parts.header->radius > 0 ? 1 / parts.header->radius : 1) {}
 
   // Makes a part's nodes and blocks, last to first, so that children come before their parent.
@@ -82,10 +82,12 @@ class VolumeMaker {
   // The best basis of one volume alone.
   void find_basis(Bounded& bounded) const {
     if (settings_.volume == SOBB_VOLUME_AABB) return;
-    Gram gram = {};
-    kernels_.add_to_gram(bounded.kdop, scale_, 1, gram);
-    const BasisChoice choice = kernels_.choose(table_, gram, settings_.strategy);
-    bounded.basis = choice.basis;
+    alignas(64) float width[kMaxDirections];
+    for (uint32_t k = 0; k < kMaxDirections; ++k) {
+      width[k] = scale_ * (bounded.kdop.upper[k] - bounded.kdop.lower[k]);
+    }
+    const TripleChoice choice = kernels_.choose_one(table_, width, settings_.strategy);
+    bounded.basis = make_basis(choice.direction[0], choice.direction[1], choice.direction[2]);
     bounded.area = choice.area;
   }
 

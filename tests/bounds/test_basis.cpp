@@ -26,7 +26,7 @@ struct Table {
   explicit Table(uint32_t k)
       : directions(default_directions(k).begin(), default_directions(k).end()),
         soa(make_direction_table(directions)),
-        basis(soa, *std::pmr::get_default_resource()) {}
+        basis(directions, *std::pmr::get_default_resource()) {}
 
   double determinant_of(uint16_t of) const {
     return std::fabs(determinant(directions[basis_direction(of, 0)],
