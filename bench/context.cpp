@@ -4,34 +4,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include <fstream>
 #include <string>
 
-#include "check.h"
+#include "circumstances.h"
 
 namespace sobb::bench {
 namespace {
-
-std::string processor() {
-  std::ifstream cpuinfo("/proc/cpuinfo");
-  for (std::string line; std::getline(cpuinfo, line);) {
-    const size_t colon = line.find(": ");
-    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
-
-std::string library_version() {
-  const uint32_t version = sobb_version();
-  return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xFF) + "." +
-         std::to_string(version & 0xFF);
-}
-
-std::string resolved_isa() {
-  sobb_isa isa = SOBB_ISA_BEST;
-  check(sobb_resolve_isa(SOBB_ISA_BEST, &isa));
-  return isa == SOBB_ISA_SSE4 ? "sse4" : "avx2";
-}
 
 std::string quality_name(uint32_t quality) {
   return quality == SOBB_QUALITY_LOW ? "low" : quality == SOBB_QUALITY_HIGH ? "high" : "medium";
@@ -58,7 +36,7 @@ void add_context(const Workbench& workbench) {
   add("width", std::to_string(flags.width));
   add("threads", std::to_string(flags.threads));
   add("clock", flags.threads == 1 ? "processor time" : "wall");
-  add("isa", resolved_isa());
+  add("isa", isa_name(SOBB_ISA_BEST));
   add("sobb", library_version());
   add("embree", embree_version());
   add("embree_isa", flags.embree_isa.empty() ? "best" : flags.embree_isa);

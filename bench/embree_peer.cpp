@@ -127,6 +127,4 @@ void EmbreePeer::trace_array([[maybe_unused]] std::vector<Ray>& rays,
 #endif
 }
 
-std::string embree_version() { return RTC_VERSION_STRING; }
-
 }  // namespace sobb::bench

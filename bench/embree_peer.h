@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "embree_calls.h"
 #include "embree_rays.h"
@@ -48,7 +47,5 @@ class EmbreePeer {
   std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device_;
   std::unique_ptr<RTCSceneTy, decltype(&rtcReleaseScene)> scene_;
 };
-
-std::string embree_version();
 
 }  // namespace sobb::bench

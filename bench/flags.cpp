@@ -2,30 +2,21 @@
 // The command line, by CLI11.
 #include "flags.h"
 
-#include <benchmark/benchmark.h>
-
 #include <CLI/CLI.hpp>
-#include <cstdlib>
-#include <iostream>
 #include <map>
+
+#include "command_line.h"
 
 namespace sobb::bench {
 namespace {
-
-constexpr int kUsageError = 2;
-
-// Medians of interleaved repetitions: what makes rows of one run comparable. The caller's flags
-// come later on Google Benchmark's command line and win.
-const std::vector<std::string> kBenchmarkDefaults{"--benchmark_repetitions=5",
-                                                  "--benchmark_enable_random_interleaving=true",
-                                                  "--benchmark_display_aggregates_only=true"};
 
 CLI::CheckedTransformer names(const std::map<std::string, uint32_t>& values) {
   return CLI::CheckedTransformer(values, CLI::ignore_case);
 }
 
 void add_flags(CLI::App& app, Flags& flags) {
-  app.add_option("--scene", flags.scene, "a scene file, or builtin:NAME[:TRIANGLES][@DEGREES]")
+  app.add_option("--scene", flags.scene,
+                 "a scene file, or builtin:NAME[:TRIANGLES]; with @DEGREES turned")
       ->capture_default_str();
   app.add_option("--cameras", flags.cameras, "a JSON file of views (see sobb/scene.h)");
   app.add_option("--view", flags.view, "which of the scene's views")->capture_default_str();
@@ -59,30 +50,10 @@ void add_flags(CLI::App& app, Flags& flags) {
 
 Flags parse_flags(int argc, char** argv) {
   Flags flags;
-  CLI::App app{"Builds, opens and traces SOBB hierarchies beside Embree on the same rays."};
+  CLI::App app{"Builds, opens and traces SOBB hierarchies beside Embree on the same rays.",
+               "sobb_bench"};
   add_flags(app, flags);
-  app.allow_extras();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::cout << app.help() << "\nand those of Google Benchmark:\n" << std::flush;
-    benchmark::PrintDefaultHelp();
-    std::exit(0);
-  } catch (const CLI::ParseError& error) {
-    std::cerr << "sobb_bench: " << error.what() << "\n" << app.help();
-    std::exit(kUsageError);
-  }
-
-  flags.benchmark_arguments = {argv[0]};
-  flags.benchmark_arguments.insert(flags.benchmark_arguments.end(), kBenchmarkDefaults.begin(),
-                                   kBenchmarkDefaults.end());
-  for (const std::string& extra : app.remaining()) {
-    if (!extra.starts_with("--benchmark_")) {
-      std::cerr << "sobb_bench: unknown argument " << extra << "\n" << app.help();
-      std::exit(kUsageError);
-    }
-    flags.benchmark_arguments.push_back(extra);
-  }
+  flags.benchmark_arguments = parse_command_line(app, argc, argv);
   return flags;
 }
 

@@ -6,6 +6,7 @@
 #include <exception>
 #include <iostream>
 
+#include "command_line.h"
 #include "context.h"
 #include "flags.h"
 #include "reporter.h"
@@ -16,15 +17,8 @@ namespace {
 
 using namespace sobb::bench;
 
-int run(const Flags& flags) {
-  std::vector<std::string> arguments = flags.benchmark_arguments;
-  std::vector<char*> argv;
-  argv.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  int argc = static_cast<int>(argv.size());
-  argv.push_back(nullptr);
-  benchmark::Initialize(&argc, argv.data());
-  if (benchmark::ReportUnrecognizedArguments(argc, argv.data())) return 2;
+int run(Flags flags) {
+  initialize_benchmark(flags.benchmark_arguments);
 
   // Calls for one ray and for a packet take their instruction set from the environment.
   if (flags.isa != "best") setenv("SOBB_ISA", flags.isa.c_str(), 1);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace sobb::bench {
 namespace {
@@ -44,8 +45,9 @@ class Random {
   uint64_t state_;
 };
 
-constexpr uint64_t kDiffuseSeed = 1;
+constexpr uint64_t kDiffuseSeed = 1;  // of the first bounce
 constexpr uint64_t kRandomSeed = 2;
+constexpr uint64_t kBounceStep = 256;  // from a bounce's seed to the next one's
 
 sobb_ray make_ray(Vec3 origin, Vec3 direction, float tmax) {
   return {
@@ -95,8 +97,8 @@ RaySet primary_rays(const sobb_view& view, uint32_t size) {
   return set;
 }
 
-Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene,
-                   const RaySet& primary, const std::vector<sobb_hit>& hits) {
+Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene, const RaySet& set,
+                   const std::vector<sobb_hit>& hits) {
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     largest = std::max({largest, std::abs(double{scene.bounds_min[axis]}),
@@ -117,7 +119,7 @@ Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene
     const Vec3 edge1 = corners[1] - corners[0];
     const Vec3 edge2 = corners[2] - corners[0];
     Vec3 normal = normalized(cross(edge1, edge2));
-    if (dot(normal, load(primary.rays[i].direction)) > 0) normal = -1 * normal;
+    if (dot(normal, load(set.rays[i].direction)) > 0) normal = -1 * normal;
     const Vec3 point = corners[0] + hit.u * edge1 + hit.v * edge2;
     surface.points.push_back({point + offset * normal, normal});
     distances.push_back(hit.t);
@@ -141,18 +143,29 @@ RaySet shadow_rays(const sobb_view& view, const Surface& surface) {
   return set;
 }
 
-RaySet diffuse_rays(const Surface& surface) {
+RaySet diffuse_rays(const Surface& surface, uint32_t bounce) {
   RaySet set{RayKind::kDiffuse, {}};
   set.rays.reserve(surface.points.size());
   for (size_t i = 0; i < surface.points.size(); ++i) {
     const SurfacePoint& point = surface.points[i];
     // A uniform point of the unit sphere that touches the surface is cosine-distributed from there.
-    Random random(kDiffuseSeed, i);
+    Random random(kDiffuseSeed + (bounce - 1) * kBounceStep, i);
     Vec3 direction = point.normal + random.direction();
     if (length(direction) < 0x1p-20) direction = point.normal;
     set.rays.push_back(make_ray(point.position, normalized(direction), kInfinity));
   }
   return set;
+}
+
+RaySet path_rays(const sobb_triangles& triangles, const sobb_scene_info& scene, RaySet primary,
+                 uint32_t bounces, const ClosestHits& closest_hits) {
+  RaySet all{RayKind::kDiffuse, {}};
+  RaySet set = std::move(primary);
+  for (uint32_t bounce = 1; bounce <= bounces; ++bounce) {
+    set = diffuse_rays(surface_of(triangles, scene, set, closest_hits(set)), bounce);
+    all.rays.insert(all.rays.end(), set.rays.begin(), set.rays.end());
+  }
+  return all;
 }
 
 RaySet random_rays(const sobb_scene_info& scene, size_t count) {

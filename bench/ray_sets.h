@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "row.h"
@@ -21,7 +22,7 @@ struct RaySet {
   bool coherent() const { return kind == RayKind::kPrimary; }
 };
 
-/// A point that a primary ray hit, moved off its triangle to the ray's side.
+/// A point that a ray hit, moved off its triangle to the ray's side.
 struct SurfacePoint {
   Vec3 position;
   Vec3 normal;  // the triangle's, unit, on the ray's side
@@ -29,7 +30,7 @@ struct SurfacePoint {
 
 struct Surface {
   std::vector<SurfacePoint> points;  // in the order of the rays that hit
-  double median_distance = 0;        // from the eye
+  double median_distance = 0;        // from the eye, where the rays are primary
 };
 
 /// Rays of unit direction through the pixels' centres of a square image, size x size, in tiles of
@@ -37,18 +38,25 @@ struct Surface {
 /// array are a square of 4x4 (4x2) pixels.
 RaySet primary_rays(const sobb_view& view, uint32_t size);
 
-/// Where the primary rays met the scene. Points stand off their triangle by 2^-17 of the largest
+/// Where rays met the scene. Points stand off their triangle by 2^-17 of the largest
 /// coordinate: some hundred units in the last place, so that rays from them start free.
-Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene,
-                   const RaySet& primary, const std::vector<sobb_hit>& hits);
+Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene, const RaySet& set,
+                   const std::vector<sobb_hit>& hits);
 
 /// To a point light that hangs half the median hit distance to the right of the eye and as much
 /// above it; from the points whose side faces it. t is 0 at the point and 1 at the light.
 RaySet shadow_rays(const sobb_view& view, const Surface& surface);
 
 /// One a point, distributed by the cosine to the normal, in the pixels' order as a path tracer
-/// makes them.
-RaySet diffuse_rays(const Surface& surface);
+/// makes them. Each bounce, counted from 1, has random numbers of its own.
+RaySet diffuse_rays(const Surface& surface, uint32_t bounce = 1);
+
+using ClosestHits = std::function<std::vector<sobb_hit>(const RaySet&)>;
+
+/// All bounces 1 to @p bounces of a path tracer, one after another: one path a primary ray, each
+/// bounce diffuse, without Russian roulette; a path ends where it leaves the scene.
+RaySet path_rays(const sobb_triangles& triangles, const sobb_scene_info& scene, RaySet primary,
+                 uint32_t bounces, const ClosestHits& closest_hits);
 
 /// Origins uniform in the scene's box, directions uniform over the sphere.
 RaySet random_rays(const sobb_scene_info& scene, size_t count);

@@ -9,28 +9,12 @@
 
 namespace sobb::bench {
 
-// The default display lives as long as the program.
-Reporter::Reporter()
-    : display_(*benchmark::CreateDefaultDisplayReporter()),
-      on_console_(dynamic_cast<benchmark::ConsoleReporter*>(&display_) != nullptr) {}
-
-bool Reporter::ReportContext(const Context& context) { return display_.ReportContext(context); }
-
 void Reporter::ReportRuns(const std::vector<Run>& runs) {
-  std::vector<Run> shown;
-  for (const Run& run : runs) {
-    remember(run);
-    const bool other_statistic =
-        run.run_type == Run::RT_Aggregate && run.aggregate_name != "median";
-    if (!on_console_ || !other_statistic) shown.push_back(run);
-  }
-  if (!shown.empty()) display_.ReportRuns(shown);
+  for (const Run& run : runs) remember(run);
+  MedianReporter::ReportRuns(runs);
 }
 
 void Reporter::remember(const Run& run) {
-  if (run.error_occurred && failure_.empty()) {
-    failure_ = run.run_name.function_name + ": " + run.error_message;
-  }
   const auto speed = run.counters.find("Mrays/s");
   if (run.error_occurred || speed == run.counters.end()) return;
   // Without repetitions there is no aggregate, and the single run is the median.
@@ -43,8 +27,8 @@ void Reporter::remember(const Run& run) {
 }
 
 void Reporter::Finalize() {
-  display_.Finalize();
-  if (on_console_ && !mrays_.empty()) print_ratios(GetOutputStream());
+  MedianReporter::Finalize();
+  if (on_console() && !mrays_.empty()) print_ratios(GetOutputStream());
 }
 
 double Reporter::speed(RayKind kind, Method method, Call call) const {

@@ -2,17 +2,19 @@
 // The scene: one array of vertices and one of indices that the library and Embree both read.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "flags.h"
 #include "sobb/scene.h"
 
 namespace sobb::bench {
 
 class SceneInput {
  public:
-  explicit SceneInput(const Flags& flags);
+  /// @p cameras is a file of views; empty for the scene's own.
+  SceneInput(const std::string& source, const std::string& cameras, uint64_t view);
 
   const sobb_triangles& triangles() const { return triangles_; }
   const sobb_scene_info& info() const { return info_; }

@@ -2,30 +2,12 @@
 // Compares hits: ours with ours bit by bit, ours with Embree's by count.
 #include "verify.h"
 
-#include <array>
-#include <bit>
-#include <cstddef>
 #include <optional>
+
+#include "difference.h"
 
 namespace sobb::bench {
 namespace {
-
-constexpr size_t kEqual = static_cast<size_t>(-1);
-
-/// Its bytes, so that floats compare by bits.
-template <typename T>
-auto bits(const T& value) {
-  return std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
-}
-
-/// The first element whose bits differ, or kEqual.
-template <typename T>
-size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
-  for (size_t i = 0; i < a.size(); ++i) {
-    if (bits(a[i]) != bits(b[i])) return i;
-  }
-  return kEqual;
-}
 
 struct Reference {
   std::string row;

@@ -10,7 +10,9 @@
 namespace sobb::bench {
 
 Workbench::Workbench(const Flags& flags)
-    : flags_(flags), scene_(flags), workers_(static_cast<int>(flags.threads)) {}
+    : flags_(flags),
+      scene_(flags.scene, flags.cameras, flags.view),
+      workers_(static_cast<int>(flags.threads)) {}
 
 Workbench::~Workbench() {
   std::error_code ignored;  // a file left in the temporary folder harms nobody

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks the system and the libraries.
+#include "circumstances.h"
+
+#include <fstream>
+
+#include "check.h"
+#include "embree_calls.h"
+
+namespace sobb::bench {
+
+std::string processor() {
+  std::ifstream cpuinfo("/proc/cpuinfo");
+  for (std::string line; std::getline(cpuinfo, line);) {
+    const size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+std::string isa_name(sobb_isa isa) {
+  sobb_isa resolved = SOBB_ISA_BEST;
+  check(sobb_resolve_isa(isa, &resolved));
+  return resolved == SOBB_ISA_SSE4 ? "sse4" : "avx2";
+}
+
+std::string library_version() {
+  const uint32_t version = sobb_version();
+  return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xFF) + "." +
+         std::to_string(version & 0xFF);
+}
+
+std::string embree_version() { return RTC_VERSION_STRING; }
+
+}  // namespace sobb::bench
