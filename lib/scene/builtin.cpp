@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::string_view kPrefix = "builtin:";
 constexpr uint64_t kMostTriangles = 1'000'000'000;
-constexpr double kMostDegrees = 360;
 
 struct View {
   Vec3 eye;
@@ -56,10 +55,9 @@ const BuiltinScene* find_scene(std::string_view name) {
   return nullptr;
 }
 
-// The whole of `text` as a number.
-template <class Number>
-bool parse_whole(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+// The whole of `text` as a number of triangles.
+bool parse_count(std::string_view text, uint64_t& count) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   return error == std::errc() && end == text.data() + text.size();
 }
 
@@ -72,16 +70,12 @@ BuiltinName parse_builtin(const std::string& source) {
   std::string_view rest = std::string_view(source).substr(kPrefix.size());
   const size_t at = rest.find('@');
   if (at != std::string_view::npos) {
-    const bool number = parse_whole(rest.substr(at + 1), result.degrees);
-    if (!number || !(result.degrees >= -kMostDegrees && result.degrees <= kMostDegrees)) {
-      fail(SOBB_ERROR_SCENE_SYNTAX, "%s: after '@' comes a number of degrees from -360 to 360",
-           source.c_str());
-    }
+    result.degrees = parse_degrees(source, rest.substr(at + 1));
     rest = rest.substr(0, at);
   }
   const size_t colon = rest.find(':');
   if (colon != std::string_view::npos) {
-    const bool number = parse_whole(rest.substr(colon + 1), result.triangles);
+    const bool number = parse_count(rest.substr(colon + 1), result.triangles);
     if (!number || result.triangles < kLeastTriangles || result.triangles > kMostTriangles) {
       fail(SOBB_ERROR_SCENE_SYNTAX,
            "%s: after the name comes a number of triangles from %llu to %llu", source.c_str(),
@@ -102,9 +96,13 @@ BuiltinName parse_builtin(const std::string& source) {
   return result;
 }
 
+ObliqueTurn turn_of(const BuiltinName& name) {
+  return {name.degrees, find_scene(name.scene)->centre};
+}
+
 std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer) {
   const BuiltinScene& scene = *find_scene(name.scene);
-  const ObliqueTurn turn(name.degrees, scene.centre);
+  const ObliqueTurn turn = turn_of(name);
   writer.expect(0, name.triangles);
   writer.begin_mesh(name.scene);
   PartsWriter parts(writer, name.triangles, turn);

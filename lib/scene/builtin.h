@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/oblique_turn.h"
 #include "scene/scene_writer.h"
 
 namespace sobb {
@@ -23,7 +24,10 @@ bool is_builtin(std::string_view source);
 // number that is none or out of range.
 BuiltinName parse_builtin(const std::string& source);
 
-// Writes the scene's triangles; returns its views.
+// The turn that the name asks for.
+ObliqueTurn turn_of(const BuiltinName& name);
+
+// Writes the scene's triangles, turned; returns its views, turned.
 std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer);
 
 }  // namespace sobb

@@ -8,18 +8,6 @@
 
 namespace sobb {
 
-ObliqueTurn::ObliqueTurn(double degrees, Vec3 centre)
-    : identity_(degrees == 0), angle_(sin_cos(degrees / 360)), centre_(centre) {}
-
-// About the axis a: v cos + (a x v) sin + a (a . v) (1 - cos) (Rodrigues).
-Vec3 ObliqueTurn::vector(Vec3 v) const {
-  if (identity_) return v;
-  const Vec3 axis = normalized({1, 2, 3});
-  return angle_.cos * v + angle_.sin * cross(axis, v) + (1 - angle_.cos) * dot(axis, v) * axis;
-}
-
-Vec3 ObliqueTurn::point(Vec3 p) const { return identity_ ? p : centre_ + vector(p - centre_); }
-
 PartsWriter::PartsWriter(SceneWriter& writer, uint64_t budget, const ObliqueTurn& turn)
     : writer_(writer), left_(budget), turn_(turn) {}
 

@@ -7,22 +7,10 @@
 #include <vector>
 
 #include "scene/builtin_math.h"
+#include "scene/oblique_turn.h"
 #include "scene/scene_writer.h"
 
 namespace sobb {
-
-// A turn about an oblique axis through a point.
-class ObliqueTurn {
- public:
-  ObliqueTurn(double degrees, Vec3 centre);
-  Vec3 point(Vec3 p) const;
-  Vec3 vector(Vec3 v) const;
-
- private:
-  bool identity_;
-  SinCos angle_;
-  Vec3 centre_;
-};
 
 struct Ring {
   Vec3 centre;

@@ -9,6 +9,7 @@
 #include "scene/builtin.h"
 #include "scene/gltf.h"
 #include "scene/obj.h"
+#include "scene/oblique_turn.h"
 #include "scene/off.h"
 #include "scene/ply.h"
 #include "scene/read_file.h"
@@ -51,6 +52,10 @@ TextFormat text_format(const std::string& ending) {
   return nullptr;
 }
 
+bool is_known(const std::string& ending) {
+  return ending == "gltf" || ending == "glb" || text_format(ending) != nullptr;
+}
+
 void load_builtin(const std::string& source, const char* views_path, uint64_t memory_limit,
                   Scene& scene) {
   const BuiltinName name = parse_builtin(source);
@@ -58,15 +63,15 @@ void load_builtin(const std::string& source, const char* views_path, uint64_t me
   std::vector<sobb_view> views = make_builtin(name, writer);
   writer.finish();
   if (views_path != nullptr) scene.views = read_views(views_path, name.scene);
+  for (sobb_view& view : scene.views) view = turn_of(name).view(view);
   if (scene.views.empty()) scene.views = std::move(views);
 }
 
 void load_file(const std::string& path, const char* views_path, uint64_t memory_limit,
                Scene& scene) {
   const PathParts parts = split_path(path);
-  const bool gltf = parts.ending == "gltf" || parts.ending == "glb";
   const TextFormat format = text_format(parts.ending);
-  if (!gltf && format == nullptr) {
+  if (!is_known(parts.ending)) {
     fail(SOBB_ERROR_SCENE_FORMAT,
          "%s: unknown ending '%s'; known are .gltf, .glb, .obj, .ply, .stl, .off, and builtin:NAME",
          path.c_str(), parts.ending.c_str());
@@ -76,7 +81,7 @@ void load_file(const std::string& path, const char* views_path, uint64_t memory_
   {
     const FileBytes file = read_file(path, writer.memory_left());
     writer.hold(file.size);
-    if (gltf) {
+    if (format == nullptr) {
       cameras = read_gltf(file.view(), path, writer);
     } else {
       format(file.view(), path.c_str(), writer);
@@ -93,15 +98,29 @@ void load_file(const std::string& path, const char* views_path, uint64_t memory_
   scene.default_view = true;
 }
 
+// Where a turn's '@' is; npos in a path that is meant as it stands.
+size_t find_turn(const std::string& source) {
+  const size_t at = source.rfind('@');
+  const size_t slash = source.rfind('/');
+  const bool in_folder = at != std::string::npos && slash != std::string::npos && at < slash;
+  if (in_folder || is_known(split_path(source).ending) || file_exists(source)) {
+    return std::string::npos;
+  }
+  return at;
+}
+
 }  // namespace
 
 Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit) {
   Scene scene;
   if (is_builtin(source)) {
     load_builtin(source, views_path, memory_limit, scene);
-  } else {
-    load_file(source, views_path, memory_limit, scene);
+    return scene;
   }
+  const size_t at = find_turn(source);
+  const double degrees = at == std::string::npos ? 0 : parse_degrees(source, source.substr(at + 1));
+  load_file(source.substr(0, at), views_path, memory_limit, scene);
+  if (degrees != 0) turn_scene(source, degrees, scene);
   return scene;
 }
 

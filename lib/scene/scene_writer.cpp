@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/measure.h"
 #include "scene/utf8.h"
 
 namespace sobb {
@@ -18,18 +19,6 @@ constexpr uint64_t kMaxVertices = uint64_t(1) << 32;
 // Half as much again for an array of triples that is full, so that growing stays cheap.
 uint64_t roomy(uint64_t size, uint64_t max_triples) {
   return std::min(3 * max_triples, std::max<uint64_t>(3 * 64, size + size / 2 + 3));
-}
-
-// Twice the triangle's area is |(b - a) x (c - a)|; the products are exact in double but for the
-// edges' own rounding.
-bool has_area(const float* a, const float* b, const float* c) {
-  double e[3];
-  double f[3];
-  for (int k = 0; k < 3; ++k) {
-    e[k] = double(b[k]) - double(a[k]);
-    f[k] = double(c[k]) - double(a[k]);
-  }
-  return e[1] * f[2] != e[2] * f[1] || e[2] * f[0] != e[0] * f[2] || e[0] * f[1] != e[1] * f[0];
 }
 
 }  // namespace
@@ -141,19 +130,7 @@ void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
 void SceneWriter::finish() {
   end_mesh();
   if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
-  scene_.bounds_min.fill(std::numeric_limits<float>::infinity());
-  scene_.bounds_max.fill(-std::numeric_limits<float>::infinity());
-  for (size_t i = 0; i < scene_.indices.size(); i += 3) {
-    const float* corners[3];
-    for (int c = 0; c < 3; ++c) {
-      corners[c] = &scene_.vertices[size_t(3) * scene_.indices[i + c]];
-      for (int k = 0; k < 3; ++k) {
-        scene_.bounds_min[k] = std::min(scene_.bounds_min[k], corners[c][k]);
-        scene_.bounds_max[k] = std::max(scene_.bounds_max[k], corners[c][k]);
-      }
-    }
-    scene_.degenerate_count += has_area(corners[0], corners[1], corners[2]) ? 0 : 1;
-  }
+  measure(scene_);
 }
 
 }  // namespace sobb

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: build, info, validate, render, demo.
+"""The command line: build, info, validate, render, demo, paper.
 
 Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage.
 """
@@ -46,7 +46,10 @@ def _fail(message: str) -> int:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="sobb", description=sobb.__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    scene_help = "a .gltf, .glb, .obj, .ply, .stl or .off file, or builtin:NAME[:TRIANGLES][@DEG]"
+    scene_help = (
+        "a .gltf, .glb, .obj, .ply, .stl or .off file, or builtin:NAME[:TRIANGLES]; "
+        "with @DEGREES behind it turned about an oblique axis"
+    )
 
     command = _add(commands, "build", _build, "build a hierarchy over a scene and save it")
     command.add_argument("scene", metavar="SCENE", help=scene_help)
@@ -84,6 +87,21 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--scene", default="builtin:hairball", help=scene_help)
     command.add_argument("--out", default="out/demo", metavar="DIR", help="where the files go")
     command.add_argument("--cameras", metavar="FILE", help="a JSON file of views")
+
+    command = _add(commands, "paper", _paper, "the paper's table: every bounding volume compared")
+    command.add_argument(
+        "--scenes",
+        nargs="+",
+        metavar="SCENE",
+        help=f"{scene_help}; or the name of a file in the folder SOBB_SCENES. The default: the "
+        "built-in ones at the paper's sizes, all .glb files of SOBB_SCENES, and four turned",
+    )
+    command.add_argument("--out", default="out/paper", metavar="DIR", help="where the files go")
+    command.add_argument(
+        "--quick", action="store_true", help="small rays and, by default, small built-in scenes"
+    )
+    command.add_argument("--cameras", metavar="FILE", help="a JSON file of views")
+    command.add_argument("--threads", type=_count, default=0, help="at most; 0 for all")
     return parser
 
 
@@ -180,3 +198,10 @@ def _demo(options: argparse.Namespace) -> None:
     from sobb import demo
 
     demo.run(options.scene, Path(options.out), options.cameras)
+
+
+def _paper(options: argparse.Namespace) -> None:
+    from sobb.paper import command
+
+    out = Path(options.out)
+    command.run(options.scenes, out, options.quick, options.cameras, options.threads)

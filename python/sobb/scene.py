@@ -39,7 +39,7 @@ class Scene:
     ) -> "Scene":
         """
         source: a .gltf, .glb, .obj, .ply, .stl or .off file, or
-            "builtin:NAME[:TRIANGLES][@DEGREES]".
+            "builtin:NAME[:TRIANGLES]"; "@DEGREES" behind it turns the scene and its views.
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
         memory_limit: bytes that the scene may take; 0 for none.
         """

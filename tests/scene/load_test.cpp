@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "scene/builtin.h"
 #include "scene/gltf_testing.h"
 #include "scene/load.h"
+#include "scene/oblique_turn.h"
 #include "sobb/scene.h"
 
 namespace sobb {
@@ -135,6 +137,96 @@ TEST_F(Load, ReadsViewsOfBuiltInScenes) {
   const std::string mine = write("mine.json", std::string(R"({"city": [)") + kView + "]}");
   EXPECT_EQ(load_scene("builtin:city:200@30", mine.c_str(), 0).views[0].vfov_degrees, 30);
   EXPECT_FALSE(load_scene("builtin:wool:200", mine.c_str(), 0).default_view);
+}
+
+TEST_F(Load, TurnsFilesAndTheirViews) {
+  const auto distance = [](const float* a, const float* b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  const std::string beside = std::string(R"({"listed": [)") + kView + "]}";
+  for (const char* name : {"camera.glb", "listed.glb", "plain.glb"}) {
+    std::string glb = path(name);
+    if (name == std::string("camera.glb")) {
+      write_glb_with_camera(name);
+    } else {
+      glb = write(name, square().glb());
+    }
+    write("cameras.json", beside);
+    const Scene straight = load_scene(glb, nullptr, 0);
+    const Scene turned = load_scene(glb + "@-77.5", nullptr, 0);
+    EXPECT_EQ(straight.indices, turned.indices);
+    EXPECT_EQ(straight.default_view, turned.default_view);
+    ASSERT_EQ(straight.views.size(), turned.views.size());
+    const sobb_view& from = straight.views[0];
+    const sobb_view& to = turned.views[0];
+    EXPECT_EQ(from.vfov_degrees, to.vfov_degrees);
+    float above_from[3];
+    float above_to[3];
+    for (int k = 0; k < 3; ++k) {
+      above_from[k] = from.eye[k] + from.up[k];
+      above_to[k] = to.eye[k] + to.up[k];
+    }
+    for (size_t i = 0; i < straight.vertices.size(); i += 3) {
+      const float* a = &straight.vertices[i];
+      const float* b = &turned.vertices[i];
+      EXPECT_GT(distance(a, b), 0.1);
+      EXPECT_NEAR(distance(a, from.eye), distance(b, to.eye), 1e-5);
+      EXPECT_NEAR(distance(a, from.target), distance(b, to.target), 1e-5);
+      EXPECT_NEAR(distance(a, above_from), distance(b, above_to), 1e-5);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_LE(turned.bounds_min[k], b[k]);
+        EXPECT_GE(turned.bounds_max[k], b[k]);
+      }
+    }
+  }
+  // The same turn as that of a built-in scene about the same point.
+  const Scene straight = load_scene(path("plain.glb"), nullptr, 0);
+  const ObliqueTurn turn(30, {0.5, 0.5, 0});
+  const Vec3 corner =
+      turn.point({straight.vertices[0], straight.vertices[1], straight.vertices[2]});
+  const Scene turned = load_scene(path("plain.glb") + "@30", nullptr, 0);
+  EXPECT_FLOAT_EQ(turned.vertices[0], float(corner.x));
+  EXPECT_FLOAT_EQ(turned.vertices[2], float(corner.z));
+  EXPECT_EQ(load_scene(path("plain.glb") + "@0", nullptr, 0).vertices, straight.vertices);
+}
+
+TEST_F(Load, TurnsGivenViews) {
+  const std::string views =
+      write("views.json", std::string(R"({"city": [)") + kView + R"(], "a": [)" + kView + "]}");
+  const std::string glb = write("a.glb", square().glb());
+  const ObliqueTurn about_square(30, {0.5, 0.5, 0});
+  const ObliqueTurn about_city = turn_of(parse_builtin("builtin:city@30"));
+  for (const auto& [source, turn] : {std::pair(glb + "@30", about_square),
+                                     std::pair(std::string("builtin:city:200@30"), about_city)}) {
+    const sobb_view view = load_scene(source, views.c_str(), 0).views[0];
+    const Vec3 eye = turn.point({1, 2, 3});
+    EXPECT_NEAR(view.eye[0], eye.x, 1e-5) << source;
+    EXPECT_NEAR(view.eye[1], eye.y, 1e-5) << source;
+    EXPECT_NEAR(view.eye[2], eye.z, 1e-5) << source;
+  }
+}
+
+TEST_F(Load, TellsTurnsFromPaths) {
+  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  const std::string straight = write("a.obj", obj);
+  const std::string literal = write("b@9.obj", obj);
+  EXPECT_EQ(load_scene(literal, nullptr, 0).vertices[3], 1);
+  EXPECT_NE(load_scene(literal + "@9", nullptr, 0).vertices[3], 1);
+  write("me@home/a.obj", obj);
+  EXPECT_EQ(load_scene(path("me@home/a.obj"), nullptr, 0).vertices[3], 1);
+  expect_error(write("c.obj@9", obj), SOBB_ERROR_SCENE_FORMAT, "unknown ending 'obj@9'");
+  expect_error(path("none@9.obj"), SOBB_ERROR_FILE_OPEN, "none@9.obj: No such file");
+  expect_error(path("none.obj@9"), SOBB_ERROR_FILE_OPEN, "none.obj: No such file");
+  for (const char* wrong : {"@", "@north", "@nan", "@inf", "@361", "@-360.5", "@9@", "@9 "}) {
+    expect_error(straight + wrong, SOBB_ERROR_SCENE_SYNTAX,
+                 std::string(wrong) + ": after '@' comes a number of degrees");
+  }
+  // 2^60 along an axis is within bounds, and turned it is not.
+  const std::string huge = write("huge.obj",
+                                 "v 1152921504606846976 1152921504606846976 0\nv -1 "
+                                 "1 0\nv -1152921504606846976 0 0\nf 1 2 3\n");
+  EXPECT_EQ(load_scene(huge, nullptr, 0).indices.size(), 3U);
+  expect_error(huge + "@120", SOBB_ERROR_TOO_LARGE, "huge.obj@120: vertex");
 }
 
 TEST_F(Load, RefusesWrongViewsByPlace) {

@@ -10,8 +10,12 @@
  *
  * Built-in scenes: `builtin:NAME[:TRIANGLES][@DEGREES]` with NAME one of hairball, wool, pipes,
  * foliage, city, terrain; 250,000 triangles unless said, as near as the scene's parts allow and
- * never more; `@DEGREES` turns the scene, and its views with it, about an oblique axis. The same
- * name gives the same bits on every machine.
+ * never more. The same name gives the same bits on every machine.
+ *
+ * Turned scenes: `@DEGREES` (-360 to 360) after a built-in scene's name, or after a path, turns the
+ * triangles and all views alike about the oblique axis (1, 2, 3): `city.glb@30`. It goes through
+ * the centre of the file's box, or one of the built-in scene's own. A file whose name is the whole
+ * text wins.
  *
  * Errors and struct_size are as in sobb.h; messages by sobb_last_error(). All functions are
  * thread-safe; a scene is immutable.
@@ -70,7 +74,7 @@ typedef struct sobb_scene_info {
 
 /**
  * Loads a scene.
- * @param source a path, or `builtin:…`.
+ * @param source a path, or `builtin:…`, with or without `@DEGREES`.
  * @param options NULL for the defaults.
  * @param out the new handle, with one reference, to be given to sobb_scene_release().
  * @return SOBB_ERROR_FILE_OPEN, _FILE_READ; SOBB_ERROR_SCENE_FORMAT (unknown ending or built-in

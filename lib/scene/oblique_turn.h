@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turned scenes, SOURCE@DEGREES: models along the axes flatter axis-aligned boxes, and a turn about
+// an oblique axis takes that away.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scene/builtin_math.h"
+#include "scene/scene.h"
+
+namespace sobb {
+
+// A turn about the axis (1, 2, 3) through a point.
+class ObliqueTurn {
+ public:
+  ObliqueTurn(double degrees, Vec3 centre);
+  Vec3 point(Vec3 p) const;
+  Vec3 vector(Vec3 v) const;
+  sobb_view view(const sobb_view& view) const;
+
+ private:
+  bool identity_;
+  SinCos angle_;
+  Vec3 centre_;
+};
+
+// What follows the '@' of a scene's name. Error SCENE_SYNTAX, naming `source`, where it is no
+// number from -360 to 360.
+double parse_degrees(const std::string& source, std::string_view text);
+
+// Turns a finished scene and its views about the centre of its box, and measures it again. Error
+// TOO_LARGE, naming `source`, where a vertex comes to lie beyond 2^60.
+void turn_scene(const std::string& source, double degrees, Scene& scene);
+
+}  // namespace sobb
