@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scalar closest-hit traversal of a tree of skewed boxes that counts its work, for rules that the
+// library's kernels do not have.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/scheduler.h"
+#include "build/mesh.h"
+#include "report.h"
+#include "sobb/sobb.h"
+#include "tree.h"
+
+namespace sobb::study {
+
+// A tree with a volume for every child: the slabs of its k-DOP in its basis.
+struct BoundedTree {
+  const Tree& tree;
+  const std::vector<Kdop>& kdops;
+  const std::vector<uint16_t>& bases;
+  const DirectionTable& directions;
+  const MeshSummary& summary;
+  const Mesh& mesh;
+};
+
+// What a child's interval is clipped to: the ray's own, or also that in which it is in the parent.
+enum class Clip { kRay, kParent };
+
+// Means over the rays.
+struct Work {
+  double nodes = 0;
+  double volumes = 0;
+  double leaves = 0;
+  double triangles = 0;
+  uint64_t hits = 0;
+  double distance = 0;  // sum of t over the hits: the same for every tree of a scene
+};
+
+Work count_work(const BoundedTree& bounded, std::span<const sobb_ray> rays, Clip clip,
+                const Scheduler& scheduler);
+
+// {"nodes", "volumes", "leaves", "triangles"}, a ray.
+Json to_json(const Work& work);
+
+}  // namespace sobb::study

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study_scene.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "check.h"
+#include "ray_sets.h"
+
+namespace sobb::study {
+
+using bench::check;
+
+StudyScene::StudyScene(const std::string& source, const StudyOptions& options)
+    : name_(source.starts_with("builtin:") ? source
+                                           : std::filesystem::path(source).filename().string()),
+      scheduler_(options.threads, nullptr),
+      memory_(std::make_shared<Memory>()) {
+  std::cerr << name_ << "\n";
+  sobb_scene* scene = nullptr;
+  check(sobb_scene_load(source.c_str(), nullptr, &scene));
+  scene_.reset(scene, sobb_scene_release);
+  triangles_.struct_size = sizeof triangles_;
+  check(sobb_scene_triangles(scene, &triangles_));
+  mesh_ = std::make_unique<Mesh>(triangles_, scheduler_);
+  summary_ = summarise(*mesh_, scheduler_, *memory_);
+}
+
+double StudyScene::box_area() const {
+  const Box box = {{summary_.lower.x, summary_.lower.y, summary_.lower.z},
+                   {summary_.upper.x, summary_.upper.y, summary_.upper.z}};
+  return 2 * box.half_area();
+}
+
+Topology StudyScene::build_topology() {
+  Progress progress(nullptr, nullptr);
+  return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1);
+}
+
+std::vector<sobb_ray> StudyScene::diffuse_rays(uint32_t size) const {
+  sobb_view view{};
+  check(sobb_scene_view(scene_.get(), 0, &view));
+  sobb_scene_info info{};
+  info.struct_size = sizeof info;
+  check(sobb_scene_get_info(scene_.get(), &info));
+
+  sobb_hierarchy* built = nullptr;
+  check(sobb_build(&triangles_, nullptr, &built));
+  const std::shared_ptr<sobb_hierarchy> hierarchy(built, sobb_release);
+  const bench::RaySet primary = bench::primary_rays(view, size);
+  std::vector<sobb_hit> hits(primary.rays.size());
+  check(sobb_intersect(built, primary.rays.data(), hits.size(), hits.data(), nullptr));
+  return bench::diffuse_rays(bench::surface_of(triangles_, info, primary, hits)).rays;
+}
+
+Json StudyScene::description() const {
+  return {{"scene", name_}, {"triangles", triangles_.triangle_count}};
+}
+
+}  // namespace sobb::study
