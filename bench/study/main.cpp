@@ -32,7 +32,7 @@ void add_options(CLI::App& app, StudyOptions& options) {
   app.add_option("--directions", options.directions, "a file of unit vectors, a line `x y z` each");
   app.add_option("--out", options.out, "write the JSON there, not to standard output");
   app.add_option("--threads", options.threads, "0: all")->capture_default_str();
-  app.add_option("--size", options.size, "one diffuse ray for each of SIZE x SIZE pixels that hit")
+  app.add_option("--size", options.size, "a path for each of SIZE x SIZE pixels")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
   app.add_option("--nodes", options.nodes, "nodes to sample a scene")

@@ -13,7 +13,7 @@ struct StudyOptions {
   std::vector<std::string> directions;  // files of direction tables, lines `x y z`
   std::string out;                      // the JSON's file; empty: standard output
   uint32_t threads = 0;                 // 0: as many as TBB gives
-  uint32_t size = 256;                  // one diffuse ray for each of size x size pixels that hit
+  uint32_t size = 128;                  // a path for each of size x size pixels
   uint32_t nodes = 10000;               // sampled a scene
   uint32_t optimised_nodes = 1000;      // of each kind, with free normals
 };

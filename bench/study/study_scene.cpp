@@ -11,6 +11,12 @@ namespace sobb::study {
 
 using bench::check;
 
+namespace {
+
+constexpr uint32_t kBounces = 7;  // as the paper counts secondary rays
+
+}  // namespace
+
 StudyScene::StudyScene(const std::string& source, const StudyOptions& options)
     : name_(source.starts_with("builtin:") ? source
                                            : std::filesystem::path(source).filename().string()),
@@ -37,7 +43,7 @@ Topology StudyScene::build_topology() {
   return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1);
 }
 
-std::vector<sobb_ray> StudyScene::diffuse_rays(uint32_t size) const {
+std::vector<sobb_ray> StudyScene::secondary_rays(uint32_t size) const {
   sobb_view view{};
   check(sobb_scene_view(scene_.get(), 0, &view));
   sobb_scene_info info{};
@@ -47,10 +53,13 @@ std::vector<sobb_ray> StudyScene::diffuse_rays(uint32_t size) const {
   sobb_hierarchy* built = nullptr;
   check(sobb_build(&triangles_, nullptr, &built));
   const std::shared_ptr<sobb_hierarchy> hierarchy(built, sobb_release);
-  const bench::RaySet primary = bench::primary_rays(view, size);
-  std::vector<sobb_hit> hits(primary.rays.size());
-  check(sobb_intersect(built, primary.rays.data(), hits.size(), hits.data(), nullptr));
-  return bench::diffuse_rays(bench::surface_of(triangles_, info, primary, hits)).rays;
+  const auto closest_hits = [&](const bench::RaySet& set) {
+    std::vector<sobb_hit> hits(set.rays.size());
+    check(sobb_intersect(built, set.rays.data(), hits.size(), hits.data(), nullptr));
+    return hits;
+  };
+  return bench::path_rays(triangles_, info, bench::primary_rays(view, size), kBounces, closest_hits)
+      .rays;
 }
 
 Json StudyScene::description() const {

@@ -31,9 +31,8 @@ class StudyScene {
 
   // A binary topology of medium quality, as the library builds.
   Topology build_topology();
-  // One ray for each of size x size primary rays of the first view that hit, from there,
-  // distributed by the cosine to the normal.
-  std::vector<sobb_ray> diffuse_rays(uint32_t size) const;
+  // All bounces 1 to 7 of a path tracer, one path for each of size x size pixels of the first view.
+  std::vector<sobb_ray> secondary_rays(uint32_t size) const;
   // {"scene", "triangles"}, for a report.
   Json description() const;
 
