@@ -1,55 +1,78 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures from the benchmark program, sobb_bench: the library beside Embree on the same rays."""
+"""Figures from the benchmark programs: runs one, reads the JSON that Google Benchmark writes."""
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from sobb import atomic
+
 _CHECKOUT = Path(__file__).resolve().parents[2]
+
+# What Google Benchmark adds to a row's name: how the row was run.
+_HOW_RUN = re.compile(r"/(manual_time|(iterations|repeats|min_time):[^/]*)(?=/|$)")
 
 #: The name of a row -> its time in ms (`real_time`) and counters.
 Rows = dict[str, dict[str, Any]]
 
 
-def find_program() -> Path:
-    """sobb_bench: beside the folder of SOBB_LIBRARY_PATH, in the checkout's release build, or in
+@dataclass(frozen=True)
+class Report:
+    """One run of a program: what it says of itself, and its rows."""
+
+    context: dict[str, Any]
+    medians: Rows
+    variations: Rows  # coefficients of variation; rows that were not repeated have none
+
+
+def find_program(name: str) -> Path:
+    """A program beside the folder of SOBB_LIBRARY_PATH, in the checkout's release build, or in
     PATH. Raises OSError."""
     folder = os.environ.get("SOBB_LIBRARY_PATH")
     build = Path(folder).parent if folder else _CHECKOUT / "build" / "release"
-    found = shutil.which("sobb_bench", path=str(build / "bin")) or shutil.which("sobb_bench")
+    found = shutil.which(name, path=str(build / "bin")) or shutil.which(name)
     if found is None:
-        raise OSError(f"no sobb_bench in {build / 'bin'} nor in PATH: build it (scripts/setup.sh)")
+        raise OSError(f"no {name} in {build / 'bin'} nor in PATH: build it (scripts/setup.sh)")
     return Path(found)
 
 
-def run(arguments: Sequence[str]) -> Rows:
-    """Runs sobb_bench; returns the medians of its rows. Raises OSError with what it said, where it
-    or one of its rows fails."""
+def run(program: str, arguments: Sequence[str], raw: Path | None = None) -> Report:
+    """Runs a program; keeps its JSON as `raw`. Raises OSError with what it said, where it or one
+    of its rows fails."""
     with tempfile.TemporaryDirectory(prefix="sobb-bench-") as folder:
-        out = os.path.join(folder, "rows.json")
-        command = [str(find_program()), *arguments]
+        out = Path(folder, "rows.json")
+        command = [str(find_program(program)), *arguments]
         command += [f"--benchmark_out={out}", "--benchmark_out_format=json"]
         done = subprocess.run(
             command, check=False, capture_output=True, text=True, errors="replace"
         )
         if done.returncode != 0:
             last = (done.stderr.strip() or done.stdout.strip()).splitlines()[-1:]
-            raise OSError(f"sobb_bench failed ({done.returncode}): {''.join(last)}")
-        with open(out, encoding="utf-8") as file:
-            return _medians(json.load(file)["benchmarks"])
+            raise OSError(f"{program} failed ({done.returncode}): {''.join(last)}")
+        data = out.read_bytes()
+    report = parse(json.loads(data))
+    if raw is not None:
+        atomic.write_bytes(raw, data)
+    return report
 
 
-def _medians(entries: list[dict[str, Any]]) -> Rows:
-    rows: Rows = {}
-    for entry in entries:
+def parse(document: dict[str, Any]) -> Report:
+    """What Google Benchmark wrote. Raises OSError for a row that failed."""
+    report = Report(document["context"], {}, {})
+    for entry in document["benchmarks"]:
         if entry.get("error_occurred"):
-            raise OSError(f"sobb_bench: {entry['name']}: {entry.get('error_message', '')}")
+            raise OSError(f"{entry['name']}: {entry.get('error_message', '')}")
+        name = _HOW_RUN.sub("", entry["run_name"])
         # One repetition is its own median; of several there is an entry that says so.
-        if entry["run_type"] == "iteration" or entry.get("aggregate_name") == "median":
-            rows[entry["run_name"].removesuffix("/manual_time")] = entry
-    return rows
+        if entry["run_type"] == "iteration" or entry["aggregate_name"] == "median":
+            report.medians[name] = entry
+        elif entry["aggregate_name"] == "cv":
+            report.variations[name] = entry
+    return report

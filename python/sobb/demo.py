@@ -81,7 +81,7 @@ def _compare(source: str, cameras: str | None, triangles: int) -> None:
     arguments += [f"--benchmark_filter=^({names})(/manual_time)?$"]
     arguments += ["--benchmark_repetitions=3", "--benchmark_min_time=0.1"]
     with bar("measure"):
-        rows = bench.run(arguments)
+        rows = bench.run("sobb_bench", arguments).medians
     table = _table(rows, triangles)
     table.title = f"{source}: {threads} threads, {resolve_isa()}"
     table.caption = (

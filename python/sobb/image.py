@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures: from linear light to a PNG file."""
 
+import io
 import os
-import tempfile
-from pathlib import Path
 
 import numpy as np
 from PIL import Image
+
+from sobb import atomic
 
 
 def to_srgb(linear: np.ndarray) -> np.ndarray:
@@ -18,15 +19,6 @@ def to_srgb(linear: np.ndarray) -> np.ndarray:
 
 def write_png(path: str | os.PathLike[str], picture: Image.Image) -> None:
     """Writes a picture atomically: whatever happens, `path` is the old file or the new."""
-    path = Path(path)
-    handle, temporary = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            picture.save(file, "png")
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)  # mkstemp keeps others from reading it
-        os.replace(temporary, path)
-    except BaseException:
-        os.unlink(temporary)
-        raise
+    data = io.BytesIO()
+    picture.save(data, "png")
+    atomic.write_bytes(path, data.getvalue())

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which scenes the table is about, and what they are called in it."""
+
+import os
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+_BUILTIN = "builtin:"
+_ENDINGS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
+_TURN = re.compile(r"@[-+.\d]+$")
+
+# Sizes like those of the paper's scenes.
+_SIZES = {
+    "hairball": 2_900_000,
+    "wool": 10_000_000,
+    "pipes": 12_800_000,
+    "city": 2_800_000,
+    "foliage": 2_800_000,
+}
+_QUICK_SIZE = 20_000
+
+# Models are drawn along the axes, which flatters the AABB: some are measured turned too. The real
+# ones where they are at hand, else built-in ones in their place.
+_ANGLE = "@30"
+_TURNED = ("city", "foliage")
+_TURNED_FILES = {"crown": "hairball", "sponza-dabrovic": "pipes"}
+
+
+@dataclass(frozen=True)
+class Source:
+    """A scene as the benchmark program takes it, and its name in tables."""
+
+    argument: str
+    name: str
+
+
+def resolve(names: Sequence[str]) -> list[Source]:
+    """Paths, built-in scenes and names of files in the folder SOBB_SCENES, any of them with
+    @DEGREES. Raises OSError naming all that are missing."""
+    found = [(name, _find(name)) for name in names]
+    missing = [name for name, source in found if source is None]
+    if missing:
+        folder = _folder()
+        where = f"in {folder}" if folder else "there (SOBB_SCENES names no folder of scenes)"
+        raise OSError(f"no such file, nor a scene of that name {where}: {', '.join(missing)}")
+    return [source for _, source in found if source is not None]
+
+
+def default() -> list[Source]:
+    """The built-in scenes at the paper's sizes, the .glb files of SOBB_SCENES, and four turned."""
+    folder = _folder()
+    files = sorted(path.stem for path in folder.glob("*.glb")) if folder else []
+    turned = list(_TURNED)
+    for file, instead in _TURNED_FILES.items():
+        turned.append(file if file in files else instead)
+    names = [*_SIZES, *files, *(name + _ANGLE for name in turned)]
+    return resolve([_at_paper_size(name) for name in names])
+
+
+def quick() -> list[Source]:
+    """Small built-in scenes, one of them turned."""
+    small = [f"{_BUILTIN}{name}:{_QUICK_SIZE}" for name in _SIZES]
+    return resolve([*small, f"{_BUILTIN}city:{_QUICK_SIZE}{_ANGLE}"])
+
+
+def _at_paper_size(name: str) -> str:
+    base, turn = _split_turn(name)
+    return f"{_BUILTIN}{base}:{_SIZES[base]}{turn}" if base in _SIZES else name
+
+
+def _folder() -> Path | None:
+    name = os.environ.get("SOBB_SCENES")
+    if not name:
+        return None
+    if not Path(name).is_dir():
+        raise OSError(f"SOBB_SCENES: {name} is no folder")
+    return Path(name)
+
+
+def _find(name: str) -> Source | None:
+    base, turn = _split_turn(name)
+    if base.startswith(_BUILTIN):
+        return Source(name, base.removeprefix(_BUILTIN).split(":")[0] + turn)
+    if Path(name).is_file():
+        return Source(name, Path(name).stem)
+    path = Path(base)
+    folder = _folder()
+    if not path.is_file() and folder is not None and path.name == base:
+        files = (folder / (base + ending) for ending in ("", *_ENDINGS))
+        path = next(filter(Path.is_file, files), path)
+    return Source(f"{path}{turn}", path.stem + turn) if path.is_file() else None
+
+
+def _split_turn(name: str) -> tuple[str, str]:
+    turn = _TURN.search(name)
+    return (name, "") if turn is None else (name[: turn.start()], turn[0])
