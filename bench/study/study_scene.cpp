@@ -43,9 +43,17 @@ Topology StudyScene::build_topology() {
   return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1);
 }
 
-std::vector<sobb_ray> StudyScene::secondary_rays(uint32_t size) const {
+sobb_view StudyScene::view() const {
   sobb_view view{};
   check(sobb_scene_view(scene_.get(), 0, &view));
+  return view;
+}
+
+std::vector<sobb_ray> StudyScene::primary_rays(uint32_t size) const {
+  return bench::primary_rays(view(), size).rays;
+}
+
+std::vector<sobb_ray> StudyScene::secondary_rays(uint32_t size) const {
   sobb_scene_info info{};
   info.struct_size = sizeof info;
   check(sobb_scene_get_info(scene_.get(), &info));
@@ -58,7 +66,8 @@ std::vector<sobb_ray> StudyScene::secondary_rays(uint32_t size) const {
     check(sobb_intersect(built, set.rays.data(), hits.size(), hits.data(), nullptr));
     return hits;
   };
-  return bench::path_rays(triangles_, info, bench::primary_rays(view, size), kBounces, closest_hits)
+  return bench::path_rays(triangles_, info, bench::primary_rays(view(), size), kBounces,
+                          closest_hits)
       .rays;
 }
 

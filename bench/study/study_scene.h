@@ -31,12 +31,16 @@ class StudyScene {
 
   // A binary topology of medium quality, as the library builds.
   Topology build_topology();
+  // Of the first view, size x size.
+  std::vector<sobb_ray> primary_rays(uint32_t size) const;
   // All bounces 1 to 7 of a path tracer, one path for each of size x size pixels of the first view.
   std::vector<sobb_ray> secondary_rays(uint32_t size) const;
   // {"scene", "triangles"}, for a report.
   Json description() const;
 
  private:
+  sobb_view view() const;
+
   std::string name_;
   Scheduler scheduler_;
   std::shared_ptr<Memory> memory_;
