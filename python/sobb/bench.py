@@ -3,7 +3,6 @@
 
 import json
 import os
-import re
 import shutil
 import subprocess
 import tempfile
@@ -15,9 +14,6 @@ from typing import Any
 from sobb import atomic
 
 _CHECKOUT = Path(__file__).resolve().parents[2]
-
-# What Google Benchmark adds to a row's name: how the row was run.
-_HOW_RUN = re.compile(r"/(manual_time|(iterations|repeats|min_time):[^/]*)(?=/|$)")
 
 #: The name of a row -> its time in ms (`real_time`) and counters.
 Rows = dict[str, dict[str, Any]]
@@ -69,7 +65,7 @@ def parse(document: dict[str, Any]) -> Report:
     for entry in document["benchmarks"]:
         if entry.get("error_occurred"):
             raise OSError(f"{entry['name']}: {entry.get('error_message', '')}")
-        name = _HOW_RUN.sub("", entry["run_name"])
+        name = entry["run_name"].removesuffix("/manual_time")
         # One repetition is its own median; of several there is an entry that says so.
         if entry["run_type"] == "iteration" or entry["aggregate_name"] == "median":
             report.medians[name] = entry

@@ -52,7 +52,7 @@ def document(speed=lambda method: 1.0, without=()):
     entries = []
 
     def add(name, median, **counters):
-        shared = {"run_name": f"{name}/repeats:3/manual_time", "name": name, "time_unit": "ms"}
+        shared = {"run_name": f"{name}/manual_time", "name": name, "time_unit": "ms"}
         for repetition in (0.9 * median, 1.2 * median, median):
             entry = {"run_type": "iteration", "real_time": repetition}
             entries.append(shared | entry | counters)
