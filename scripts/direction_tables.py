@@ -17,7 +17,7 @@ from scipy.spatial import ConvexHull
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CONSTANTS = ROOT / "lib/bounds/direction_sets.inc"
 DOCUMENT = ROOT / "docs/direction-tables.md"
-COUNTS = (16, 24, 32)
+COUNTS = (16, 24, 32, 64, 128)
 AXES = np.eye(3)
 
 
@@ -205,21 +205,28 @@ def main():
         help="least covering radius (default), or largest smallest angle",
     )
     parser.add_argument("--starts", type=int, default=100, help="random starts a table")
+    parser.add_argument(
+        "--counts",
+        type=int,
+        nargs="+",
+        choices=COUNTS,
+        default=COUNTS,
+        help="the tables to make; the others stay as committed",
+    )
     parser.add_argument("--seed", type=int, default=1)
     action = parser.add_mutually_exclusive_group()
     action.add_argument("--write", action="store_true", help="write the C++ constants")
     action.add_argument("--check", action="store_true", help="check them against the document")
     arguments = parser.parse_args()
 
+    tables, faults = read(), []
     if arguments.check:
-        tables = read()
         faults = list(check(tables))
     else:
-        tables = [
-            optimise(count, arguments.objective, arguments.starts, arguments.seed)
-            for count in COUNTS
-        ]
-        faults = []
+        made = {len(table): table for table in tables}
+        for count in arguments.counts:
+            made[count] = optimise(count, arguments.objective, arguments.starts, arguments.seed)
+        tables = [made[count] for count in sorted(made)]
     print("| k | K | smallest angle | covering radius |\n|---|---|---|---|")
     for table in tables:
         print(row(table))

@@ -42,7 +42,7 @@ class OneVolume {
     bound_pairs(narrowest_);
     if (strategy == SOBB_STRATEGY_K) {
       try_pair(narrowest_, second());
-      return choice_;
+      return choice();
     }
     // The pair of the least bound first, so that few others are left.
     try_pair(narrowest_, least_of(bound_));
@@ -55,17 +55,29 @@ class OneVolume {
         try_pairs(a);
       }
     }
-    return choice_;
+    return choice();
   }
 
  private:
   using Tag = hn::CappedTag<float, 8>;
   using Vector = hn::Vec<Tag>;
 
-  // The index of the least value; of equal ones, the lowest.
+  // The index of the least of a row's values; of equal ones, the lowest.
   uint32_t least_of(const float* value) const {
-    return static_cast<uint32_t>(std::min_element(value, value + table_.count()) - value);
+    const Tag d;
+    auto least = hn::Set(d, INFINITY);
+    for (uint32_t i = 0; i < table_.count(); i += hn::Lanes(d)) {
+      least = hn::Min(hn::IfThenElse(used(i), hn::LoadU(d, value + i), least), least);
+    }
+    least = hn::MinOfLanes(d, least);
+    for (uint32_t i = 0; i < table_.count(); i += hn::Lanes(d)) {
+      const uint64_t found = bits(hn::Eq(hn::LoadU(d, value + i), least));
+      if (found != 0) return i + lowest(found);
+    }
+    return 0;
   }
+
+  hn::Mask<Tag> used(uint32_t group) const { return hn::FirstN(Tag(), table_.count() - group); }
 
   // Half the areas of (a; b, c) times |det|, given a's width, b's and c's. No fused multiply-add:
   // the file's bytes rest on it.
@@ -82,9 +94,11 @@ class OneVolume {
     for (uint32_t b = 0; b < table_.stride(); b += hn::Lanes(d)) {
       const auto width = hn::LoadU(d, width_ + b);
       const auto second = hn::Max(width, first);
-      const auto bound = hn::Mul(half_faces(first, second, second), hn::LoadU(d, inverse + b));
+      const auto least = hn::LoadU(d, inverse + b);
+      const auto bound = hn::Mul(half_faces(first, second, second), least);
+      const auto possible = hn::And(hn::Ge(width, first), hn::Lt(least, hn::Set(d, INFINITY)));
       hn::Store(second, d, clamped_ + b);
-      hn::Store(hn::IfThenElse(hn::Ge(width, first), bound, hn::Set(d, INFINITY)), d, bound_ + b);
+      hn::Store(hn::IfThenElse(possible, bound, hn::Set(d, INFINITY)), d, bound_ + b);
     }
   }
 
@@ -104,43 +118,53 @@ class OneVolume {
       const auto bound = hn::Load(d, bound_ + group);
       for (uint64_t left = bits(hn::Le(bound, hn::Set(d, half_area_))); left != 0;
            left &= left - 1) {
-        const uint32_t b = group + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+        const uint32_t b = group + lowest(left);
         if (bound_[b] <= half_area_) try_pair(a, b);
       }
     }
   }
 
   // Tries all thirds of a pair at once. Flat triples have an infinite reciprocal: their area is
-  // infinite, or NaN where the slabs have no width, and never taken.
+  // infinite, or NaN where the slabs have no width, and never less than another.
   void try_pair(uint32_t a, uint32_t b) {
     const Tag d;
+    auto least = hn::Set(d, INFINITY);
     const auto first = hn::Set(d, width_[a]);
     const auto second = hn::Set(d, clamped_[b]);
     const float* inverse = table_.inverse_determinants(a, b);
     for (uint32_t c = 0; c < table_.stride(); c += hn::Lanes(d)) {
-      const auto faces = half_faces(first, second, hn::Load(d, clamped_ + c));
-      const auto area = hn::Mul(faces, hn::LoadU(d, inverse + c));
-      const auto taken = hn::Le(area, hn::Set(d, half_area_));
-      if (HWY_UNLIKELY(!hn::AllFalse(d, taken))) take(area, bits(taken), a, b, c);
+      const auto area = thirds(first, second, inverse, c);
+      least = hn::IfThenElse(hn::Lt(area, least), area, least);
+    }
+    if (hn::AllFalse(d, hn::Le(least, hn::Set(d, half_area_)))) return;
+    least = hn::MinOfLanes(d, least);
+    for (uint32_t c = 0; c < table_.stride(); c += hn::Lanes(d)) {
+      const uint64_t found = bits(hn::Eq(thirds(first, second, inverse, c), least));
+      if (found != 0) return take(hn::GetLane(least), code_of(a, b, c + lowest(found)));
     }
   }
 
-  HWY_NOINLINE void take(Vector areas, uint64_t lanes, uint32_t a, uint32_t b, uint32_t first_c) {
+  // Half the areas of (a; b, c) for the thirds from c on; `inverse` is the pair's row.
+  Vector thirds(Vector first, Vector second, const float* inverse, uint32_t c) const {
     const Tag d;
-    alignas(64) float area[hn::MaxLanes(d)];
-    hn::Store(areas, d, area);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero64(lanes);
-      uint32_t index[3] = {a, b, first_c + static_cast<uint32_t>(lane)};
-      std::sort(index, index + 3);
-      const bool before =
-          std::lexicographical_compare(index, index + 3, choice_.direction, choice_.direction + 3);
-      if (area[lane] < half_area_ || (area[lane] == half_area_ && before)) {
-        half_area_ = area[lane];
-        choice_.area = 2 * half_area_;
-        std::copy(index, index + 3, choice_.direction);
-      }
-    }
+    return hn::Mul(half_faces(first, second, hn::Load(d, clamped_ + c)), hn::LoadU(d, inverse + c));
+  }
+
+  void take(float half_area, uint32_t code) {
+    if (half_area == half_area_ && code > code_) return;
+    half_area_ = half_area;
+    code_ = code;
+  }
+
+  // A triple as a number: compared, its lowest index counts first.
+  static uint32_t code_of(uint32_t a, uint32_t b, uint32_t c) {
+    const uint32_t low = std::min(std::min(a, b), c);
+    const uint32_t high = std::max(std::max(a, b), c);
+    return low << 16 | (a + b + c - low - high) << 8 | high;
+  }
+
+  TripleChoice choice() const {
+    return {{code_ >> 16, code_ >> 8 & 0xFF, code_ & 0xFF}, 2 * half_area_};
   }
 
   static uint64_t bits(hn::Mask<Tag> mask) {
@@ -149,12 +173,16 @@ class OneVolume {
     return bytes[0];
   }
 
+  static uint32_t lowest(uint64_t bits) {
+    return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+  }
+
   const BasisTable& table_;
   const float* width_;
   uint32_t narrowest_;
   // Finite, so that a flat triple is never taken.
   float half_area_ = std::numeric_limits<float>::max();
-  TripleChoice choice_;
+  uint32_t code_ = code_of(0, 1, 2);
   alignas(64) float clamped_[kMaxSearchedDirections];
   alignas(64) float bound_[kMaxSearchedDirections];
 };

@@ -38,9 +38,13 @@ std::span<const Direction> default_directions(uint32_t k) {
       return kDirections24;
     case 64:
       return kDirections32;
+    case 128:
+      return kDirections64;
+    case 256:
+      return kDirections128;
   }
-  fail(SOBB_ERROR_INVALID_ARGUMENT, "no default directions for k = %u; there are for 6, 32, 48, 64",
-       k);
+  fail(SOBB_ERROR_INVALID_ARGUMENT,
+       "no default directions for k = %u; there are for 6, 32, 48, 64, 128, 256", k);
 }
 
 }  // namespace sobb

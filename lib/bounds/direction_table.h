@@ -19,9 +19,9 @@ struct alignas(64) DirectionTable {
 
 DirectionTable make_direction_table(std::span<const Direction> directions);
 
-// The default set for a k-DOP of k = 6 (the axes), 32, 48 or 64 planes. Sets begin with the axes;
-// the rest was optimised by scripts/direction_tables.py, which prints smallest angle and covering
-// radius.
+// The default set for a k-DOP of k = 6 (the axes), 32, 48, 64, 128 or 256 planes. Sets begin with
+// the axes; the rest was optimised by scripts/direction_tables.py, which prints smallest angle and
+// covering radius. Those for 128 and 256 are for studies: no DirectionTable and no file holds them.
 std::span<const Direction> default_directions(uint32_t k);
 
 }  // namespace sobb

@@ -58,7 +58,10 @@ double covering_radius(const std::vector<Vector>& lines) {
     const double length = std::sqrt(dot(centre, centre));
     centre = {centre.x / length, centre.y / length, centre.z / length};
     const double radius = std::abs(dot(centre, a));
-    if (nearest(lines, centre) <= radius + 1e-9) cosine = std::min(cosine, radius);
+    const bool empty = std::none_of(lines.begin(), lines.end(), [&](Vector line) {
+      return std::abs(dot(line, centre)) > radius + 1e-9;
+    });
+    if (empty) cosine = std::min(cosine, radius);
   };
   for (size_t i = 0; i < lines.size(); ++i) {
     for (size_t j = 0; j < i; ++j) {
@@ -71,6 +74,15 @@ double covering_radius(const std::vector<Vector>& lines) {
     }
   }
   return degrees(cosine);
+}
+
+sobb_status status_of(const auto& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.status;
+  }
+  return SOBB_OK;
 }
 
 struct Figures {
@@ -110,6 +122,10 @@ TEST_P(DefaultDirections, HaveTheDocumentedFigures) {
 
 TEST_P(DefaultDirections, FillATablePaddedWithZeros) {
   const auto directions = default_directions(GetParam().k);
+  if (directions.size() > kMaxDirections) {
+    EXPECT_EQ(status_of([&] { make_direction_table(directions); }), SOBB_ERROR_INVALID_ARGUMENT);
+    return;
+  }
   const DirectionTable table = make_direction_table(directions);
   ASSERT_EQ(table.count, directions.size());
   for (uint32_t i = 0; i < kMaxDirections; ++i) {
@@ -122,20 +138,12 @@ TEST_P(DefaultDirections, FillATablePaddedWithZeros) {
 
 INSTANTIATE_TEST_SUITE_P(EveryK, DefaultDirections,
                          testing::Values(Figures{6, 90, 54.74}, Figures{32, 24.06, 24.16},
-                                         Figures{48, 25.62, 18.82}, Figures{64, 22.89, 16.24}),
+                                         Figures{48, 25.62, 18.82}, Figures{64, 22.89, 16.24},
+                                         Figures{128, 13.18, 11.59}, Figures{256, 9.53, 8.23}),
                          [](const auto& info) { return "k" + std::to_string(info.param.k); });
 
-sobb_status status_of(const auto& body) {
-  try {
-    body();
-  } catch (const Error& error) {
-    return error.status;
-  }
-  return SOBB_OK;
-}
-
 TEST(DirectionTable, RefusesOtherKs) {
-  for (uint32_t k : {0u, 3u, 31u, 33u, 62u, 66u, 128u, ~0u}) {
+  for (uint32_t k : {0u, 3u, 31u, 33u, 62u, 66u, 127u, 257u, ~0u}) {
     EXPECT_EQ(status_of([&] { default_directions(k); }), SOBB_ERROR_INVALID_ARGUMENT) << k;
   }
 }

@@ -157,10 +157,10 @@ TEST(OneVolume, FindsWhatTryingEveryTripleFinds) {
 TEST(OneVolume, FindsTheDefaultSetsBases) {
   constexpr uint64_t kSeed = 96;
   Random random(kSeed);
-  for (const uint32_t k : {32U, 48U, 64U}) {
+  for (const uint32_t k : {32U, 48U, 64U, 128U, 256U}) {
     const auto directions = default_directions(k);
     const Table table({directions.begin(), directions.end()});
-    for (int round = 0; round < 300; ++round) {
+    for (int round = 0; round < (k > 64 ? 20 : 200); ++round) {
       std::vector<float> width = random_widths(random, table, round % 5);
       make_ties(random, table, width);
       check(table, width,
