@@ -38,17 +38,17 @@ class Hierarchy {
   double inner_area() const { return inner_area_; }
   double leaf_area() const { return leaf_area_; }
   uint64_t node_bytes() const;
-  // Volumes that do not contain a vertex of theirs: 0, or there is a defect. O(n log n).
-  uint64_t count_leaks(const Scheduler& scheduler) const;
+  // How often a vertex is outside of a volume above it: 0, or there is a defect. O(n log n).
+  uint64_t count_leaks() const;
 
   // Closest hits, the bits of sobb_intersect(). `counts`, one a ray, may be null. Returns how many
   // rays were not valid. Thread-safe.
   uint64_t intersect(const sobb_ray* rays, uint64_t count, sobb_hit* hits, sobb_count* counts,
                      const Scheduler& scheduler) const;
 
- private:
   struct Nodes;  // of one volume and width, for one instruction set
 
+ private:
   const SharedTopology* topology_;
   std::unique_ptr<Nodes> nodes_;
   double convert_ms_ = 0;

@@ -29,14 +29,14 @@ void for_leaves(const Part& part, const Visit& visit) {
 
 std::unique_ptr<SharedTopology::Layout> make_layout(const Mesh& mesh, const TopologyNode& root,
                                                     uint32_t width, const Scheduler& scheduler,
-                                                    Memory& memory) {
+                                                    const std::shared_ptr<Memory>& memory) {
   const auto start = Clock::now();
-  auto layout = std::make_unique<SharedTopology::Layout>(memory);
-  layout->wide = collapse(root, width, scheduler, memory);
-  layout->blocks.resize(layout->wide.block_count);
+  auto layout = std::make_unique<SharedTopology::Layout>(collapse(root, width, scheduler, *memory));
+  layout->block_bytes = Image::allocate(memory, layout->wide.block_count * sizeof(TriangleBlock));
+  auto* blocks = reinterpret_cast<TriangleBlock*>(layout->block_bytes.bytes().data());
   const auto write = [&](const Part& part) {
     for_leaves(part, [&](const LeafNode& leaf, uint32_t block) {
-      write_blocks(mesh, leaf, &layout->blocks[block]);
+      write_blocks(mesh, leaf, blocks + block);
     });
   };
   scheduler.for_each(layout->wide.subtrees.size(),
@@ -66,8 +66,8 @@ SharedTopology::SharedTopology(const sobb_triangles& triangles, const Scheduler&
   topology_ = std::make_unique<Topology>(mesh_, SOBB_QUALITY_MEDIUM, scheduler, *memory_, progress,
                                          /*progress_end=*/1);
   topology_ms_ = ms_since(start);
-  binary_ = make_layout(mesh_, *topology_->root(), 2, scheduler, *memory_);
-  eight_wide_ = make_layout(mesh_, *topology_->root(), 8, scheduler, *memory_);
+  binary_ = make_layout(mesh_, *topology_->root(), 2, scheduler, memory_);
+  eight_wide_ = make_layout(mesh_, *topology_->root(), 8, scheduler, memory_);
   leaf_count_ = count_leaves(binary_->wide);
 }
 

@@ -5,13 +5,15 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <span>
+#include <utility>
 
 #include "base/memory.h"
 #include "base/scheduler.h"
 #include "build/collapse.h"
 #include "build/mesh.h"
 #include "build/topology.h"
+#include "format/image.h"
 #include "format/layout.h"
 #include "sobb/sobb.h"
 
@@ -27,10 +29,13 @@ class SharedTopology {
   // The nodes of one width, and their triangle blocks.
   struct Layout {
     WideTopology wide;
-    std::pmr::vector<TriangleBlock> blocks;
+    Image block_bytes;
     double ms = 0;  // wall clock: collapse and blocks
 
-    explicit Layout(std::pmr::memory_resource& memory) : wide(memory), blocks(&memory) {}
+    explicit Layout(WideTopology&& wide) : wide(std::move(wide)) {}
+    std::span<const TriangleBlock> blocks() const {
+      return {reinterpret_cast<const TriangleBlock*>(block_bytes.bytes().data()), wide.block_count};
+    }
   };
   const Layout& layout(uint32_t width) const;  // 2 or 8
 
@@ -44,7 +49,7 @@ class SharedTopology {
   const Mesh& mesh() const { return mesh_; }
   const MeshSummary& summary() const { return summary_; }
   double box_area() const;
-  Memory& memory() const { return *memory_; }
+  const std::shared_ptr<Memory>& memory() const { return memory_; }
 
  private:
   std::shared_ptr<Memory> memory_;

@@ -37,12 +37,8 @@ struct FileVolumes {
       }
       return;
     }
-    const hn::RebindToSigned<ChildFloats<W>> di;
-    const hn::Rebind<uint16_t, ChildFloats<W>> d16;
-    auto basis = hn::PromoteTo(di, hn::Load(d16, node.basis + first));
     for (int j = 0; j < 3; ++j) {
-      clip_own<W>(table, node.slab[j], hn::And(basis, hn::Set(di, 31)), first, near, far);
-      basis = hn::ShiftRight<5>(basis);
+      clip_own<W>(table, node.slab[j], node.basis + first, j, first, near, far);
     }
   }
 };

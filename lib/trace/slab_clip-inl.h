@@ -41,17 +41,33 @@ HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], ui
       far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r, hn::Set(d, table.far[direction])));
 }
 
-// The same with a direction of its own for each child.
+// A lookup by each child's own direction, the j-th of its basis. Two children are too few to
+// gather.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
-HWY_INLINE void clip_own(const RayTable& table, const float (&slab)[2][W],
-                         hn::Vec<hn::RebindToSigned<ChildFloats<W>>> direction, size_t first,
-                         V& near, V& far) {
+HWY_INLINE V look_up(const float* values, const uint16_t* basis, int j) {
   const ChildFloats<W> d;
-  const V r = hn::GatherIndex(d, table.reciprocal, direction);
+  if constexpr (W == 2) {
+    return hn::InterleaveLower(d, hn::Set(d, values[basis_direction(basis[0], j)]),
+                               hn::Set(d, values[basis_direction(basis[1], j)]));
+  } else {
+    const hn::RebindToSigned<ChildFloats<W>> di;
+    const hn::Rebind<uint16_t, ChildFloats<W>> d16;
+    const auto all = hn::PromoteTo(di, hn::Load(d16, basis));
+    return hn::GatherIndex(d, values, hn::And(hn::ShiftRightSame(all, 5 * j), hn::Set(di, 31)));
+  }
+}
+
+// The same with a direction of its own for each child. `basis` are those of the children from
+// `first` on.
+template <int W, class V = hn::Vec<ChildFloats<W>>>
+HWY_INLINE void clip_own(const RayTable& table, const float (&slab)[2][W], const uint16_t* basis,
+                         int j, size_t first, V& near, V& far) {
+  const ChildFloats<W> d;
+  const V r = look_up<W>(table.reciprocal, basis, j);
   const V lower = hn::Mul(hn::Load(d, slab[0] + first), r);
   const V upper = hn::Mul(hn::Load(d, slab[1] + first), r);
-  near = hn::Max(near, hn::Add(hn::Min(lower, upper), hn::GatherIndex(d, table.near, direction)));
-  far = hn::Min(far, hn::Add(hn::Max(lower, upper), hn::GatherIndex(d, table.far, direction)));
+  near = hn::Max(near, hn::Add(hn::Min(lower, upper), look_up<W>(table.near, basis, j)));
+  far = hn::Min(far, hn::Add(hn::Max(lower, upper), look_up<W>(table.far, basis, j)));
 }
 
 }  // namespace

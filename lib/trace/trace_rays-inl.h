@@ -17,12 +17,12 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // The result of a query as its caller stores it.
-void store(const ClosestHit& best, sobb_hit& hit) { hit = best.result(); }
-void store(const ClosestHit& best, uint8_t& occluded) {
+inline void store(const ClosestHit& best, sobb_hit& hit) { hit = best.result(); }
+inline void store(const ClosestHit& best, uint8_t& occluded) {
   occluded = best.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
 }
-void store_invalid(sobb_hit& hit) { hit = ClosestHit::missed(SOBB_INVALID); }
-void store_invalid(uint8_t& occluded) { occluded = SOBB_OCCLUDED_INVALID; }
+inline void store_invalid(sobb_hit& hit) { hit = ClosestHit::missed(SOBB_INVALID); }
+inline void store_invalid(uint8_t& occluded) { occluded = SOBB_OCCLUDED_INVALID; }
 
 template <class Volumes, Query kQuery, class Result>
 uint64_t trace_rays(const TraceScene& scene, const sobb_ray* rays, uint64_t count, Result* results,

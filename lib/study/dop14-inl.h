@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The 14-DOP: seven slabs, along the axes and the box's diagonals. Included once for each Highway
+// target.
+#if defined(SOBB_STUDY_DOP14_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_STUDY_DOP14_INL_H
+#undef SOBB_STUDY_DOP14_INL_H
+#else
+#define SOBB_STUDY_DOP14_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "study/dop_area.h"
+#include "study/slab_hull.h"
+#include "study/triangles_below.h"
+#include "study/volume.h"
+#include "trace/slab_clip-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb::study {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
+
+struct Dop14 {
+  static constexpr uint32_t kSlabs = 7;
+  using Hull = SlabHull<8>;
+  using Ray = RayTable;
+
+  float slab[kSlabs][2];
+
+  static Dop14 fit(const Tables&, const Hull& hull, const TrianglesBelow&) {
+    Dop14 dop;
+    for (uint32_t k = 0; k < kSlabs; ++k) {
+      dop.slab[k][0] = hull.lower[k];
+      dop.slab[k][1] = hull.upper[k];
+    }
+    return dop;
+  }
+
+  double area(const Tables& tables) const { return dop_area(tables.directions, slab); }
+
+  bool contains(const Tables& tables, const double p[3]) const {
+    for (uint32_t k = 0; k < kSlabs; ++k) {
+      const Direction& n = tables.directions[k];
+      const double along = n.x * p[0] + n.y * p[1] + n.z * p[2];
+      if (!(along >= slab[k][0] && along <= slab[k][1])) return false;
+    }
+    return true;
+  }
+
+  template <int W>
+  struct Children {
+    float slab[kSlabs][2][W];
+
+    void set(uint32_t i, const Dop14& dop) {
+      for (uint32_t k = 0; k < kSlabs; ++k) {
+        for (int side = 0; side < 2; ++side) slab[k][side][i] = dop.slab[k][side];
+      }
+    }
+    Dop14 get(uint32_t i) const {
+      Dop14 dop;
+      for (uint32_t k = 0; k < kSlabs; ++k) {
+        for (int side = 0; side < 2; ++side) dop.slab[k][side] = slab[k][side][i];
+      }
+      return dop;
+    }
+  };
+
+  template <int W, class V = hn::Vec<ChildFloats<W>>>
+  static HWY_INLINE void clip(const RayTable& table, const Children<W>& children, size_t first,
+                              V& near, V& far) {
+    for (uint32_t k = 0; k < kSlabs; ++k) {
+      clip_shared<W>(table, children.slab[k], k, first, near, far);
+    }
+  }
+};
+static_assert(Volume<Dop14>);
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb::study
+HWY_AFTER_NAMESPACE();
+
+#endif

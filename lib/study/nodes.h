@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// The nodes of a hierarchy, whatever their volume, width and instruction set.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "base/scheduler.h"
+#include "study/hierarchy.h"
+#include "study/shared_topology.h"
+#include "study/tables.h"
+
+namespace sobb::study {
+
+// Sums over all children, in the order of the file.
+struct Areas {
+  double inner = 0;
+  double leaf = 0;
+};
+
+struct Hierarchy::Nodes {
+  Nodes() = default;
+  Nodes(const Nodes&) = delete;
+  Nodes& operator=(const Nodes&) = delete;
+  virtual ~Nodes() = default;
+
+  virtual void convert(const Scheduler& scheduler) = 0;
+  virtual uint64_t bytes() const = 0;
+  virtual Areas areas(const Scheduler& scheduler) const = 0;
+  virtual uint64_t count_leaks() const = 0;
+  virtual uint64_t intersect(const sobb_ray* rays, uint64_t count, sobb_hit* hits,
+                             sobb_count* counts) const = 0;
+
+  // Not converted yet. `isa` is resolved.
+  static std::unique_ptr<Nodes> make(const SharedTopology& topology,
+                                     const ConvertSettings& settings, sobb_isa isa);
+};
+
+}  // namespace sobb::study

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The triangles below a node, where they lie.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "format/layout.h"
+
+namespace sobb::study {
+
+struct BlockRange {
+  uint64_t first;
+  uint64_t end;
+};
+
+struct TrianglesBelow {
+  const TriangleBlock* blocks;
+  std::span<const BlockRange> ranges;
+};
+
+}  // namespace sobb::study
