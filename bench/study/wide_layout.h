@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A choice of wide nodes as the library's build takes it.
+#pragma once
+
+#include <memory_resource>
+
+#include "build/collapse.h"
+#include "wide_cut.h"
+
+namespace sobb::study {
+
+// Borrows the tree's references. All nodes are in the topology's top: the build that follows is
+// then a serial one.
+struct WideLayout {
+  std::vector<LeafNode> nodes;  // of the tree, what the wide nodes' children point at
+  WideTopology topology;
+  uint64_t leaf_count = 0;
+  double mean_leaf_depth = 0;  // wide nodes above a leaf
+};
+
+// Depth first, siblings next to each other. Errors: INTERNAL where it is too deep for a file.
+WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_resource& memory);
+
+}  // namespace sobb::study
