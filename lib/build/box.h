@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axis-aligned boxes, as the topology is built of.
+// Boxes along the axes of the topology's frame, which is built of them.
 #pragma once
 
 #include <algorithm>
+#include <cfloat>
+#include <cmath>
 
+#include "build/frame.h"
 #include "build/mesh.h"
 
 namespace sobb {
@@ -25,24 +28,39 @@ struct Box {
   }
 };
 
+// The nearest floats below and above a number, itself where it is one.
+inline float float_below(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded <= value ? rounded : std::nextafter(rounded, -FLT_MAX);
+}
+inline float float_above(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded >= value ? rounded : std::nextafter(rounded, FLT_MAX);
+}
+
 // The corners of a triangle as arrays of three axes.
 struct Corners {
-  float at[3][3];  // [corner][axis]
+  double at[3][3];     // [corner][axis], in the topology's frame
+  double point[3][3];  // the same in the mesh's coordinates
+  bool turned;         // whether these differ
 
-  Corners(const Mesh& mesh, uint64_t triangle) {
+  Corners(const Mesh& mesh, uint64_t triangle, const Frame& frame = Frame())
+      : turned(frame.is_turned()) {
     for (int i = 0; i < 3; ++i) {
       const Point p = mesh.corner(triangle, i);
-      at[i][0] = p.x;
-      at[i][1] = p.y;
-      at[i][2] = p.z;
+      point[i][0] = p.x;
+      point[i][1] = p.y;
+      point[i][2] = p.z;
+      frame.turn(p, at[i]);
     }
   }
 
+  // In the frame, outward.
   Box box() const {
     Box box;
     for (int k = 0; k < 3; ++k) {
-      box.lower[k] = std::min({at[0][k], at[1][k], at[2][k]});
-      box.upper[k] = std::max({at[0][k], at[1][k], at[2][k]});
+      box.lower[k] = float_below(std::min({at[0][k], at[1][k], at[2][k]}));
+      box.upper[k] = float_above(std::max({at[0][k], at[1][k], at[2][k]}));
     }
     return box;
   }

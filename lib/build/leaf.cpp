@@ -16,17 +16,18 @@ RelativePoint relative(const double point[3], const float centre[3]) {
 }  // namespace
 
 void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& directions,
-              const float centre[3], const BoundsKernels& kernels, Kdop& kdop) {
+              const float centre[3], const BoundsKernels& kernels, Kdop& kdop, const Frame& frame) {
   RelativePoint points[9 * kMaxLeafReferences];
   uint64_t count = 0;
   for (uint64_t i = 0; i < leaf.reference_count; ++i) {
     const Reference& reference = leaf.references[i];
-    const Corners corners(mesh, reference.primitive);
+    const Corners corners(mesh, reference.primitive, frame);
     double polygon[9][3];
     int polygon_count = 0;
     if (reference.box == corners.box()) {
       for (; polygon_count < 3; ++polygon_count) {
-        std::copy(corners.at[polygon_count], corners.at[polygon_count] + 3, polygon[polygon_count]);
+        const double* corner = corners.point[polygon_count];
+        std::copy(corner, corner + 3, polygon[polygon_count]);
       }
     } else {
       polygon_count = clip_to_box(corners, reference.box, polygon);
@@ -36,7 +37,9 @@ void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& dire
   if (count == 0) {
     // Every reference's box misses its triangle: nothing can be hit here, but a volume there is.
     const float* corner = leaf.references[0].box.lower;
-    const double point[3] = {corner[0], corner[1], corner[2]};
+    const double at[3] = {corner[0], corner[1], corner[2]};
+    double point[3];
+    frame.turn_back(at, point);
     points[count++] = relative(point, centre);
   }
   kernels.fit(directions, points, count, kdop);
@@ -51,11 +54,11 @@ void write_blocks(const Mesh& mesh, const LeafNode& leaf, TriangleBlock* blocks)
         continue;
       }
       const uint32_t primitive = leaf.references[at].primitive;
-      const Corners corners(mesh, primitive);
       for (int vertex = 0; vertex < 3; ++vertex) {
-        for (int axis = 0; axis < 3; ++axis) {
-          blocks[i].vertex[vertex][axis][lane] = corners.at[vertex][axis];
-        }
+        const Point corner = mesh.corner(primitive, vertex);
+        blocks[i].vertex[vertex][0][lane] = corner.x;
+        blocks[i].vertex[vertex][1][lane] = corner.y;
+        blocks[i].vertex[vertex][2][lane] = corner.z;
       }
       blocks[i].primitive[lane] = primitive;
     }

@@ -62,6 +62,7 @@ RTCBuildQuality to_embree(sobb_quality quality) {
 // What Embree's callbacks see. They run on several threads at once and may not throw.
 struct Topology::Builder {
   const Mesh& mesh;
+  const Frame frame;
   Memory& memory;
   Progress& progress;
   double progress_end;
@@ -70,8 +71,9 @@ struct Topology::Builder {
   std::atomic<bool> limit_met{false};  // the memory limit refused Embree something
   std::atomic<bool> starved{false};    // a node or leaf got no memory, and is missing
 
-  Builder(const Mesh& mesh, Memory& memory, Progress& progress, double progress_end)
-      : mesh(mesh), memory(memory), progress(progress), progress_end(progress_end) {}
+  Builder(const Mesh& mesh, const Frame& frame, Memory& memory, Progress& progress,
+          double progress_end)
+      : mesh(mesh), frame(frame), memory(memory), progress(progress), progress_end(progress_end) {}
   ~Builder() {
     if (bvh != nullptr) rtcReleaseBVH(bvh);
     if (device != nullptr) rtcReleaseDevice(device);
@@ -144,8 +146,8 @@ struct Topology::Builder {
     const auto* self = static_cast<const Builder*>(user);
     Box low;
     Box high;
-    split_box(Corners(self->mesh, primitive->primID), to_box(*primitive), static_cast<int>(axis),
-              position, low, high);
+    split_box(Corners(self->mesh, primitive->primID, self->frame), to_box(*primitive),
+              static_cast<int>(axis), position, low, high);
     to_bounds(low, *below);
     to_bounds(high, *above);
   }
@@ -191,7 +193,7 @@ struct Topology::Builder {
     std::pmr::vector<RTCBuildPrimitive> primitives(count + room, &memory);
     scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
       for (uint64_t i = begin; i < end; ++i) {
-        primitives[i] = to_primitive(Corners(mesh, i).box(), static_cast<uint32_t>(i));
+        primitives[i] = to_primitive(Corners(mesh, i, frame).box(), static_cast<uint32_t>(i));
       }
     });
 
@@ -224,8 +226,8 @@ struct Topology::Builder {
 };
 
 Topology::Topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler,
-                   Memory& memory, Progress& progress, double progress_end)
-    : builder_(std::make_unique<Builder>(mesh, memory, progress, progress_end)) {
+                   Memory& memory, Progress& progress, double progress_end, const Frame& frame)
+    : builder_(std::make_unique<Builder>(mesh, frame, memory, progress, progress_end)) {
   root_ = builder_->build(quality, scheduler);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary hierarchy over the triangles' axis-aligned boxes, made by Embree's builder. It says
-// which triangles lie together; volumes come later.
+// The binary hierarchy over the triangles' boxes along the axes of a frame, made by Embree's
+// builder. It says which triangles lie together; volumes come later.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ class Topology {
   // Progress runs from 0 to `progress_end`. Errors: OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED,
   // INTERNAL. The same for any number of threads.
   Topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler, Memory& memory,
-           Progress& progress, double progress_end);
+           Progress& progress, double progress_end, const Frame& frame = Frame());
   ~Topology();
   Topology(const Topology&) = delete;
   Topology& operator=(const Topology&) = delete;

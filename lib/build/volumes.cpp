@@ -42,6 +42,8 @@ class VolumeMaker {
         parts_(parts),
         kernels_(bounds_kernels(settings.isa)),
         directions_(make_direction_table(parts.directions)),
+        frame_(parts.directions,
+               {parts.header->centre[0], parts.header->centre[1], parts.header->centre[2]}),
         table_(parts.directions, memory),
         scale_(parts.header->radius > 0 ? 1 / parts.header->radius : 1) {}
 
@@ -73,7 +75,7 @@ class VolumeMaker {
 
  private:
   void make_leaf(const LeafNode& leaf, uint32_t block, Bounded& bounded) const {
-    fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop);
+    fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop, frame_);
     write_blocks(mesh_, leaf, &parts_.blocks[block]);
     bounded.cost = kBlockCost * static_cast<float>(blocks_of(leaf.reference_count));
     find_basis(bounded);
@@ -149,6 +151,7 @@ class VolumeMaker {
   ImageParts parts_;
   const BoundsKernels& kernels_;
   DirectionTable directions_;
+  Frame frame_;  // the topology's
   BasisTable table_;
   float scale_;  // of widths, so that areas neither overflow nor vanish
 };
