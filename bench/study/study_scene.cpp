@@ -38,9 +38,10 @@ double StudyScene::box_area() const {
   return 2 * box.half_area();
 }
 
-Topology StudyScene::build_topology() {
+Topology StudyScene::build_topology(const Frame& frame) {
   Progress progress(nullptr, nullptr);
-  return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1);
+  return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1,
+                  frame);
 }
 
 sobb_view StudyScene::view() const {

@@ -30,7 +30,7 @@ class StudyScene {
   Memory& memory() { return *memory_; }
 
   // A binary topology of medium quality, as the library builds.
-  Topology build_topology();
+  Topology build_topology(const Frame& frame = Frame());
   // Of the first view, size x size.
   std::vector<sobb_ray> primary_rays(uint32_t size) const;
   // All bounces 1 to 7 of a path tracer, one path for each of size x size pixels of the first view.

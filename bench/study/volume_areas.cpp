@@ -46,6 +46,7 @@ VolumeAreas::VolumeAreas(const MeshSummary& summary, std::pmr::memory_resource& 
     for (const NamedStrategy& s : kStrategies) {
       names_.push_back("SOBB " + std::to_string(k) + " " + s.name);
     }
+    names_.push_back("SOBB " + std::to_string(k) + " k2 or axes");
   }
 }
 
@@ -60,6 +61,7 @@ VolumeAreas::Areas VolumeAreas::measure(const PointSet& points) const {
   areas.by_method.push_back(std::min(aabb, area_with(points, obb)));
   areas.normals = {kAxes, obb};
   for (const Table& table : tables_) {
+    double least_k2 = 0;
     std::vector<float> width(table.bases.stride());
     for (size_t k = 0; k < table.directions.size(); ++k) {
       width[k] = static_cast<float>(points.width(table.directions[k]));
@@ -75,8 +77,10 @@ VolumeAreas::Areas VolumeAreas::measure(const PointSet& points) const {
         chosen_width[j] = static_cast<double>(width[choice.direction[j]]) / scale;
       }
       areas.by_method.push_back(slab_area(normals.data(), chosen_width));
+      if (s.strategy == SOBB_STRATEGY_K2) least_k2 = areas.by_method.back();
       if (s.strategy == SOBB_STRATEGY_K3 && table.k >= 64) areas.normals.push_back(normals);
     }
+    areas.by_method.push_back(std::min(least_k2, aabb));
   }
   return areas;
 }

@@ -20,7 +20,7 @@ class VolumeAreas {
  public:
   VolumeAreas(const MeshSummary& summary, std::pmr::memory_resource& memory);
 
-  // AABB, 14-DOP, OBB, then SOBB 32 to 256, each by k, k2, k3.
+  // AABB, 14-DOP, OBB, then SOBB 32 to 256, each by k, k2, k3, and by k2 or the axes.
   const std::vector<std::string>& names() const { return names_; }
 
   struct Areas {
