@@ -8,10 +8,6 @@ namespace {
 
 Vector as_vector(const Direction& n) { return {n.x, n.y, n.z}; }
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-double length(const Vector& a) { return std::sqrt(dot(a, a)); }
-
 }  // namespace
 
 double determinant(const Direction& a, const Direction& b, const Direction& c) {

@@ -35,7 +35,7 @@ struct TripleChoice {
   float area = std::numeric_limits<float>::infinity();
 };
 
-// Half a Gram matrix's sum of areas over |det|, doubled: what choose() minimises.
+// The weighted sum of areas in a basis: what choose() minimises, to the last bit.
 float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis);
 
 // One set a sobb_isa; all return the same bits.

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// The search for the basis of least area, of whatever has an area in every basis. Included once for
+// each Highway target.
+//
+// Exact, to the last bit: rounded sums and products grow with their operands, so a bound that is
+// computed from lesser operands as an area is from its own is no more than that area as computed.
+// Pairs bounded above the least area found are left out, and no triple is lost with them.
+//
+// Volumes is what is searched:
+//   const float* extents()           a row: the narrowest slab's direction has the least
+//   float square(b)                  of a width, for strategy k
+//   void bound_pairs(a, bound)       a row over b: half the area of a basis (a, b, c) is no less
+//                                    than the bound of b, or than that of c
+//   void bound_any_pairs(a, bound)   likewise, but a basis has such a bound for one of its three
+//                                    pairs only, in one order
+//   void bound_firsts(bound)         a row over a: no more than any bound of bound_any_pairs(a)
+//   Pair pair(a, b)                  of the a whose pairs were bounded last
+//   Vec<Tag> Pair::operator()(c)     half the areas of the bases with a and b and every third from
+//                                    c on; infinite or NaN for flat triples
+#if defined(SOBB_BOUNDS_BASIS_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_BOUNDS_BASIS_SEARCH_INL_H
+#undef SOBB_BOUNDS_BASIS_SEARCH_INL_H
+#else
+#define SOBB_BOUNDS_BASIS_SEARCH_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bounds/basis_table.h"
+#include "bounds/bounds_kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, 8>;
+
+template <class Volumes>
+class BasisSearch {
+ public:
+  BasisSearch(const BasisTable& table, Volumes& volumes) : table_(table), volumes_(volumes) {}
+
+  TripleChoice choose(sobb_strategy strategy) {
+    alignas(64) float bound[kMaxSearchedDirections];
+    const uint32_t narrowest = least_of(volumes_.extents());
+    volumes_.bound_pairs(narrowest, bound);
+    if (strategy == SOBB_STRATEGY_K) {
+      try_pair(narrowest, second(narrowest));
+      return choice();
+    }
+    // The pair of the least bound first, so that few others are left.
+    try_pair(narrowest, least_of(bound));
+    try_pairs(narrowest, bound);
+    if (strategy == SOBB_STRATEGY_K3) {
+      alignas(64) float first_bound[kMaxSearchedDirections];
+      volumes_.bound_firsts(first_bound);
+      first_bound[narrowest] = INFINITY;
+      for_each_within(first_bound, [&](uint32_t a) HWY_ATTR {
+        volumes_.bound_any_pairs(a, bound);
+        try_pairs(a, bound);
+      });
+    }
+    return choice();
+  }
+
+ private:
+  void try_pairs(uint32_t a, const float* bound) {
+    for_each_within(bound, [&](uint32_t b) HWY_ATTR { try_pair(a, b); });
+  }
+
+  // Tries all thirds of a pair at once.
+  void try_pair(uint32_t a, uint32_t b) {
+    const Tag d;
+    const auto half_areas = volumes_.pair(a, b);
+    auto least = hn::Set(d, INFINITY);
+    for (uint32_t c = 0; c < table_.stride(); c += hn::Lanes(d)) {
+      const auto area = half_areas(c);
+      least = hn::IfThenElse(hn::Lt(area, least), area, least);  // not where it is NaN
+    }
+    if (hn::AllFalse(d, hn::Le(least, hn::Set(d, half_area_)))) return;
+    least = hn::MinOfLanes(d, least);
+    for (uint32_t c = 0; c < table_.stride(); c += hn::Lanes(d)) {
+      const uint64_t found = bits(hn::Eq(half_areas(c), least));
+      if (found != 0) return take(hn::GetLane(least), code_of(a, b, c + lowest(found)));
+    }
+  }
+
+  void take(float half_area, uint32_t code) {
+    if (half_area == half_area_ && code > code_) return;
+    half_area_ = half_area;
+    code_ = code;
+  }
+
+  // The second direction of strategy k: least d_b^2 / (1 - cos^2), the parallelogram's extent
+  // across slab a.
+  uint32_t second(uint32_t a) const {
+    alignas(64) float extent[kMaxSearchedDirections];
+    const float* inverse_sine = table_.inverse_sine_squares(a);
+    for (uint32_t b = 0; b < table_.count(); ++b) extent[b] = volumes_.square(b) * inverse_sine[b];
+    extent[a] = INFINITY;
+    return least_of(extent);
+  }
+
+  // The index of the least of a row's values; of equal ones, the lowest.
+  uint32_t least_of(const float* value) const {
+    const Tag d;
+    auto least = hn::Set(d, INFINITY);
+    for (uint32_t i = 0; i < table_.count(); i += hn::Lanes(d)) {
+      const auto used = hn::FirstN(d, table_.count() - i);
+      least = hn::Min(hn::IfThenElse(used, hn::LoadU(d, value + i), least), least);
+    }
+    least = hn::MinOfLanes(d, least);
+    for (uint32_t i = 0; i < table_.count(); i += hn::Lanes(d)) {
+      const uint64_t found = bits(hn::Eq(hn::LoadU(d, value + i), least));
+      if (found != 0) return i + lowest(found);
+    }
+    return 0;
+  }
+
+  // Calls body(i) for every i whose bound is, when its turn comes, no more than the least area.
+  template <class Body>
+  void for_each_within(const float* bound, const Body& body) const {
+    const Tag d;
+    for (uint32_t group = 0; group < table_.stride(); group += hn::Lanes(d)) {
+      const auto within = hn::Le(hn::Load(d, bound + group), hn::Set(d, half_area_));
+      for (uint64_t left = bits(within); left != 0; left &= left - 1) {
+        const uint32_t i = group + lowest(left);
+        if (bound[i] <= half_area_) body(i);
+      }
+    }
+  }
+
+  static uint64_t bits(hn::Mask<Tag> mask) {
+    uint8_t bytes[8] = {};
+    hn::StoreMaskBits(Tag(), mask, bytes);
+    return bytes[0];
+  }
+
+  static uint32_t lowest(uint64_t bits) {
+    return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
+  }
+
+  // A triple as a number: compared, its lowest index counts first.
+  static uint32_t code_of(uint32_t a, uint32_t b, uint32_t c) {
+    const uint32_t low = std::min(std::min(a, b), c);
+    const uint32_t high = std::max(std::max(a, b), c);
+    return low << 16 | (a + b + c - low - high) << 8 | high;
+  }
+
+  TripleChoice choice() const {
+    return {{code_ >> 16, code_ >> 8 & 0xFF, code_ & 0xFF}, 2 * half_area_};
+  }
+
+  const BasisTable& table_;
+  Volumes& volumes_;
+  // Finite, so that a flat triple is never taken.
+  float half_area_ = std::numeric_limits<float>::max();
+  uint32_t code_ = code_of(0, 1, 2);
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif
