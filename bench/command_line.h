@@ -2,12 +2,9 @@
 // What both programs do with a command line: our flags are CLI11's, the rest Google Benchmark's.
 #pragma once
 
+#include <CLI/App.hpp>
 #include <string>
 #include <vector>
-
-namespace CLI {
-class App;
-}
 
 namespace sobb::bench {
 
