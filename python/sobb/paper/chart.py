@@ -5,6 +5,7 @@ import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
@@ -57,8 +58,10 @@ def picture(scenes: Sequence[Measured], kind: str) -> bytes:
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False, fontsize=8.5)
     out = io.BytesIO()
-    # Without a date, equal figures make equal files.
-    figure.savefig(out, format=kind, dpi=200, metadata={"Date": None} if kind == "svg" else None)
+    # Equal figures make equal files: no date, and names in the SVG that are not random.
+    with rc_context({"svg.hashsalt": "sobb"}):
+        dated = {"Date": None} if kind == "svg" else None
+        figure.savefig(out, format=kind, dpi=200, metadata=dated)
     return out.getvalue()
 
 
@@ -101,7 +104,7 @@ def _draw_scale(axis: Axes) -> None:
     axis.set_xlim(min(low, 0.7), max(high, 1.45))
     for panel in axis.figure.axes:
         panel.xaxis.set_major_locator(FixedLocator(_TICKS))
-        panel.xaxis.set_major_formatter(FuncFormatter(lambda ratio, _: f"{ratio:g}×"))
+        panel.xaxis.set_major_formatter(FuncFormatter(lambda ratio, _: f"{ratio:.2g}×"))
         panel.xaxis.set_minor_locator(NullLocator())
         panel.grid(axis="x", color=_GRID, linewidth=0.6)
         panel.set_axisbelow(True)

@@ -47,7 +47,8 @@ _CONTEXT = {
 def text(scenes: Iterable[Measured]) -> str:
     """The whole file. Cells of what was not measured, or not repeated, are empty."""
     names = ["scene", "triangles", "layout", "method", "strategy"]
-    names += [name for column in COLUMNS for name in (column.key, f"{column.key}_cv")]
+    for column in COLUMNS:
+        names += [column.key, f"{column.key}_cv"] if column.timed else [column.key]
     names += ["node_bytes", *_WORK, *_BUILD.values(), *_CONTEXT.values()]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
@@ -68,7 +69,9 @@ def _line(scene: Measured, layout: str, method: str) -> list[str] | None:
     line: list[Any] = [scene.name, scene.triangles, layout, METHODS[method], strategy_of(method)]
     for column in COLUMNS:
         figure = found.get(column.key)
-        line += [None, None] if figure is None else [figure.value, figure.variation]
+        line.append(None if figure is None else figure.value)
+        if column.timed:
+            line.append(None if figure is None else figure.variation)
     medians, context = scene.report.medians, scene.report.context
     line.append(medians.get(row_name("overhead", method, layout), {}).get("node_bytes"))
     for name in _WORK:
