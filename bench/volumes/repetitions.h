@@ -12,11 +12,16 @@ struct Repetitions {
   int64_t passes = 1;  // timed together, in each
 };
 
-/// 3 to 9, as the cell's time allows; where nine take less, each is of several passes.
-inline Repetitions repetitions(double cell_seconds, double pass_seconds) {
-  constexpr double kFewest = 3, kMost = 9, kMostPasses = 1e6;
+/// Builds and conversions of a large scene take longer than a cell has; passes are what is
+/// compared.
+inline constexpr int kFewestBuilds = 1;
+inline constexpr int kFewestPasses = 3;
+
+/// `fewest` to 9, as the cell's time allows; where nine take less, each is of several passes.
+inline Repetitions repetitions(double cell_seconds, double pass_seconds, int fewest) {
+  constexpr double kMost = 9, kMostPasses = 1e6;
   const double fit = cell_seconds / std::max(pass_seconds, 1e-9);
-  const double count = std::clamp(fit, kFewest, kMost);
+  const double count = std::clamp<double>(fit, fewest, kMost);
   return {static_cast<int>(count), static_cast<int64_t>(std::clamp(fit / kMost, 1.0, kMostPasses))};
 }
 

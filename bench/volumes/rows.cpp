@@ -35,8 +35,8 @@ void report_overhead(State& state, const Workbench& workbench, const Subject& su
     const double ms = first ? subject.hierarchy.convert_ms() : workbench.convert_anew(subject);
     state.SetIterationTime(1e-3 * ms);
   }
-  state.counters["area_inner"] = subject.hierarchy.inner_area();
-  state.counters["area_leaf"] = subject.hierarchy.leaf_area();
+  state.counters["area_inner"] = subject.areas.inner;
+  state.counters["area_leaf"] = subject.areas.leaf;
   state.counters["node_bytes"] = static_cast<double>(subject.hierarchy.node_bytes());
 }
 
@@ -73,7 +73,7 @@ void register_overhead_rows(Workbench& workbench) {
                  [&workbench, &subject, next](State& state) {
                    report_overhead(state, workbench, subject, (*next)++ == 0);
                  })
-        ->Repetitions(repetitions(workbench.options().cell_seconds, seconds).count)
+        ->Repetitions(repetitions(workbench.options().cell_seconds, seconds, kFewestBuilds).count)
         ->Iterations(1);
   }
 }
@@ -83,7 +83,8 @@ void register_trace_rows(Workbench& workbench) {
     const RayGroup& group = workbench.groups()[i];
     for (const Subject& subject : workbench.subjects()) {
       const Work& work = subject.work[i];
-      const Repetitions often = repetitions(workbench.options().cell_seconds, work.seconds);
+      const Repetitions often =
+          repetitions(workbench.options().cell_seconds, work.seconds, kFewestPasses);
       register_row(group.name + "/" + subject.name(),
                    [&workbench, &subject, &group, &work](State& state) {
                      trace(state, workbench, subject, group, work);

@@ -23,6 +23,7 @@ struct Work {
 struct Subject {
   study::ConvertSettings settings;
   study::Hierarchy hierarchy;
+  study::Areas areas;
   std::array<Work, kGroups> work{};
 
   /// METHOD/LAYOUT[/STRATEGY], the end of its rows' names.

@@ -3,6 +3,7 @@
 #include "workbench.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "repetitions.h"
 
@@ -32,12 +33,14 @@ void Workbench::build_topology() {
                               {topology_->layout_ms(2), topology_->layout_ms(8)}};
     topology_times_.push_back(times);
     const double ms = times.topology + times.layout[0] + times.layout[1];
-    if (i == 0) count = repetitions(options_.cell_seconds, 1e-3 * ms).count;
+    if (i == 0) count = repetitions(options_.cell_seconds, 1e-3 * ms, kFewestBuilds).count;
   }
 }
 
 void Workbench::add_subject(const study::ConvertSettings& settings) {
-  subjects_.push_back({settings, study::Hierarchy(*topology_, settings, scheduler_)});
+  study::Hierarchy hierarchy(*topology_, settings, scheduler_);
+  const study::Areas areas = hierarchy.areas(scheduler_);
+  subjects_.push_back({settings, std::move(hierarchy), areas});
   if (subjects_.size() == 1) make_rays();
   count_work(subjects_.back());
 }

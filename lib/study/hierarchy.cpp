@@ -36,15 +36,17 @@ Hierarchy::Hierarchy(const SharedTopology& topology, const ConvertSettings& sett
   nodes_->convert(scheduler);
   convert_ms_ =
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  const double box = topology.box_area();
-  const Areas areas = nodes_->areas(scheduler);
-  inner_area_ = box > 0 ? areas.inner / box : 0;
-  leaf_area_ = box > 0 ? areas.leaf / box : 0;
 }
 
 Hierarchy::~Hierarchy() = default;
 Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
+
+Areas Hierarchy::areas(const Scheduler& scheduler) const {
+  const double box = topology_->box_area();
+  const Areas sum = nodes_->areas(scheduler);
+  return box > 0 ? Areas{sum.inner / box, sum.leaf / box} : Areas{};
+}
 
 uint64_t Hierarchy::node_bytes() const { return nodes_->bytes(); }
 

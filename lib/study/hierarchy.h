@@ -21,6 +21,11 @@ struct ConvertSettings {
   sobb_isa isa = SOBB_ISA_BEST;  // of conversion and tracing; never changes a result
 };
 
+struct Areas {
+  double inner = 0;  // of nodes' children that are nodes
+  double leaf = 0;   // of those that are leaves
+};
+
 class Hierarchy {
  public:
   // Converts the topology: bounds of every leaf's triangles, merged upwards; a volume for every
@@ -34,9 +39,9 @@ class Hierarchy {
 
   // Wall clock of the conversion, the paper's overhead.
   double convert_ms() const { return convert_ms_; }
-  // Sums of the children's areas over that of the scene's box; 0 where that has none.
-  double inner_area() const { return inner_area_; }
-  double leaf_area() const { return leaf_area_; }
+  // Sums of the children's areas over that of the scene's box; 0 where that has none. O(nodes),
+  // some microseconds each for 14-DOPs.
+  Areas areas(const Scheduler& scheduler) const;
   uint64_t node_bytes() const;
   // How often a vertex is outside of a volume above it: 0, or there is a defect. O(n log n).
   uint64_t count_leaks() const;
@@ -52,8 +57,6 @@ class Hierarchy {
   const SharedTopology* topology_;
   std::unique_ptr<Nodes> nodes_;
   double convert_ms_ = 0;
-  double inner_area_ = 0;
-  double leaf_area_ = 0;
 };
 
 }  // namespace sobb::study

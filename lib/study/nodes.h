@@ -12,12 +12,6 @@
 
 namespace sobb::study {
 
-// Sums over all children, in the order of the file.
-struct Areas {
-  double inner = 0;
-  double leaf = 0;
-};
-
 struct Hierarchy::Nodes {
   Nodes() = default;
   Nodes(const Nodes&) = delete;
@@ -26,6 +20,7 @@ struct Hierarchy::Nodes {
 
   virtual void convert(const Scheduler& scheduler) = 0;
   virtual uint64_t bytes() const = 0;
+  // Not relative to anything, summed in the order of the file.
   virtual Areas areas(const Scheduler& scheduler) const = 0;
   virtual uint64_t count_leaks() const = 0;
   virtual uint64_t intersect(const sobb_ray* rays, uint64_t count, sobb_hit* hits,

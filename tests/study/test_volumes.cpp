@@ -81,8 +81,8 @@ TEST_P(Study, AreasAndWorkDoNotDependOnTheWay) {
     first.intersect(rays.data(), rays.size(), hits.data(), counts.data(), serial_);
     for (const sobb_isa isa : isas()) {
       const Hierarchy other(topology, {GetParam(), width, SOBB_STRATEGY_K2, isa}, parallel_);
-      EXPECT_EQ(other.inner_area(), first.inner_area());
-      EXPECT_EQ(other.leaf_area(), first.leaf_area());
+      EXPECT_EQ(other.areas(parallel_).inner, first.areas(serial_).inner);
+      EXPECT_EQ(other.areas(parallel_).leaf, first.areas(serial_).leaf);
       EXPECT_EQ(other.node_bytes(), first.node_bytes());
       std::vector<sobb_hit> other_hits(rays.size());
       other.intersect(rays.data(), rays.size(), other_hits.data(), nullptr, parallel_);
@@ -123,8 +123,9 @@ TEST(StudyAreas, OfAabbsAreThoseOfAFile) {
   const Scheduler serial(1, nullptr);
   const SharedTopology topology(triangles, serial, std::make_shared<Memory>());
   const Hierarchy hierarchy(topology, {method("AABB"), 8}, serial);
-  EXPECT_NEAR(hierarchy.inner_area(), info.inner_area, 1e-9 * info.inner_area);
-  EXPECT_NEAR(hierarchy.leaf_area(), info.leaf_area, 1e-9 * info.leaf_area);
+  const Areas areas = hierarchy.areas(serial);
+  EXPECT_NEAR(areas.inner, info.inner_area, 1e-9 * info.inner_area);
+  EXPECT_NEAR(areas.leaf, info.leaf_area, 1e-9 * info.leaf_area);
   EXPECT_EQ(topology.node_count(8), info.nodes);
   EXPECT_EQ(topology.leaf_count(), info.leaves);
 }
@@ -136,7 +137,7 @@ TEST(StudyAreas, FallWithEffort) {
   const Scheduler serial(1, nullptr);
   const SharedTopology topology(soup.view(), serial, std::make_shared<Memory>());
   const auto leaf_area = [&](std::string_view name, sobb_strategy strategy) {
-    return Hierarchy(topology, {method(name), 2, strategy}, serial).leaf_area();
+    return Hierarchy(topology, {method(name), 2, strategy}, serial).areas(serial).leaf;
   };
   const double aabb = leaf_area("AABB", SOBB_STRATEGY_K2);
   EXPECT_LT(leaf_area("14-DOP", SOBB_STRATEGY_K2), aabb);
