@@ -34,7 +34,8 @@ void fit(const DirectionTable& directions, const RelativePoint* points, uint64_t
                std::max(largest.y, std::fabs(points[i].y)),
                std::max(largest.z, std::fabs(points[i].z))};
   }
-  for (uint32_t k = 0; k < kMaxDirections; k += hn::Lanes(d)) {
+  uint32_t k = 0;
+  for (; k < directions.count; k += static_cast<uint32_t>(hn::Lanes(d))) {
     const auto nx = hn::Load(d, directions.x + k);
     const auto ny = hn::Load(d, directions.y + k);
     const auto nz = hn::Load(d, directions.z + k);
@@ -59,6 +60,8 @@ void fit(const DirectionTable& directions, const RelativePoint* points, uint64_t
     hn::Store(hn::IfThenZeroElse(unused, hn::Sub(lower, error)), d, kdop.lower + k);
     hn::Store(hn::IfThenZeroElse(unused, hn::Add(upper, error)), d, kdop.upper + k);
   }
+  std::fill(kdop.lower + k, kdop.lower + kMaxDirections, 0.0F);
+  std::fill(kdop.upper + k, kdop.upper + kMaxDirections, 0.0F);
 }
 
 }  // namespace
