@@ -5,6 +5,7 @@
 
 #include "basis_rules.h"
 #include "build/frame.h"
+#include "build/scene_directions.h"
 #include "counting_trace.h"
 #include "direction_file.h"
 #include "study_scene.h"
@@ -12,6 +13,7 @@
 namespace sobb::study {
 namespace {
 
+constexpr uint32_t kPlanes[] = {32, 48, 64};
 constexpr BasisRule kAxes = {BasisFrom::kAxes, SOBB_STRATEGY_K2, false};
 constexpr BasisRule kOwn = {BasisFrom::kEachChild, SOBB_STRATEGY_K3, false};
 constexpr BasisRule kShared = {BasisFrom::kSumOrAxes, SOBB_STRATEGY_K2, true};
@@ -24,6 +26,11 @@ struct NamedTable {
 NamedTable default_table(uint32_t k) {
   const auto directions = default_directions(k);
   return {k == 6 ? "AABB" : "default " + std::to_string(k), {directions.begin(), directions.end()}};
+}
+
+NamedTable fitted_table(StudyScene& scene, uint32_t k) {
+  return {"fitted " + std::to_string(k),
+          scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory())};
 }
 
 Json measure_width(StudyScene& scene, const TopologyNode& root, uint32_t width,
@@ -61,7 +68,8 @@ Json measure_table(StudyScene& scene, const NamedTable& table, const std::vector
 
 int tables(const StudyOptions& options) {
   std::vector<NamedTable> tables;
-  for (const uint32_t k : {6, 32, 48, 64}) tables.push_back(default_table(k));
+  tables.push_back(default_table(6));
+  for (const uint32_t k : kPlanes) tables.push_back(default_table(k));
   for (const std::string& path : options.directions) {
     tables.push_back({std::filesystem::path(path).stem().string(), read_directions(path)});
   }
@@ -70,6 +78,9 @@ int tables(const StudyOptions& options) {
                  Json rows = Json::array();
                  for (const NamedTable& table : tables) {
                    rows.push_back(measure_table(scene, table, rays));
+                 }
+                 for (const uint32_t k : kPlanes) {
+                   rows.push_back(measure_table(scene, fitted_table(scene, k), rays));
                  }
                  return Json{{"rays", rays.size()}, {"tables", rows}};
                }));
