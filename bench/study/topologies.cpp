@@ -2,7 +2,6 @@
 // Are hierarchies built for AABBs the right ones? Every variant becomes a file of the library, and
 // traces the same rays.
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "base/error.h"
 #include "check.h"
+#include "difference.h"
 #include "report.h"
 #include "stopwatch.h"
 #include "study_options.h"
@@ -51,11 +51,8 @@ Json count_work(sobb_hierarchy* hierarchy, const RayTask& task) {
   std::vector<sobb_count> counts(task.rays.size());
   Hits hits;
   trace(hierarchy, task.rays, hits, counts.data());
-  for (size_t i = 0; i < hits.size(); ++i) {
-    if (std::memcmp(&hits[i], &task.expected[i], sizeof hits[i]) != 0) {
-      fail(SOBB_ERROR_INTERNAL, "ray %zu hits otherwise", i);
-    }
-  }
+  const size_t other = bench::first_difference(hits, task.expected);
+  if (other != bench::kEqual) fail(SOBB_ERROR_INTERNAL, "ray %zu hits otherwise", other);
   uint64_t nodes = 0;
   uint64_t volumes = 0;
   uint64_t blocks = 0;
