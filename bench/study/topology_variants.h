@@ -23,8 +23,8 @@ struct Variant {
   Layout layout;
   BinaryTree tree;
   WideCut cut;
-  double topology_ms;  // processor time of splits and leaves; 0 where shared with another variant
-  double collapse_ms;  // of areas and wide nodes
+  double topology_ms;  // processor time of splits and, but for an exact collapse, of leaves
+  double collapse_ms;  // of areas and wide nodes, and of leaves chosen with them
 };
 
 // Makes the variants one after the other. The first is the library's own.
