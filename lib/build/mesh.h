@@ -33,7 +33,18 @@ class Mesh {
   Point corner(uint64_t triangle, int i) const { return vertex(indices_[3 * triangle + i]); }
   uint32_t index(uint64_t triangle, int i) const { return indices_[3 * triangle + i]; }
 
+  // Read a triangle's indices, or by these its corners, so that they are in the cache when they are
+  // needed. A prefetch would not do: it is dropped where the page is not in the TLB.
+  void touch_indices(uint64_t triangle) const { touch(indices_ + 3 * triangle); }
+  void touch_corners(uint64_t triangle) const {
+    for (int i = 0; i < 3; ++i) touch(vertices_ + index(triangle, i) * stride_);
+  }
+
  private:
+  static void touch(const void* at) {
+    static_cast<void>(*static_cast<const volatile unsigned char*>(at));
+  }
+
   const unsigned char* vertices_;
   uint64_t vertex_count_;
   uint64_t stride_;

@@ -56,6 +56,7 @@ class VolumeMaker {
     std::pmr::vector<Bounded> bounded(part.nodes.size(), &memory);
     auto* nodes = static_cast<Node<W>*>(parts_.nodes);
     for (size_t at = part.nodes.size(); at-- > 0;) {
+      touch_next(part, at);
       const WideNode& wide = part.nodes[at];
       Bounded leaf[kMaxWidth];
       const Bounded* child[kMaxWidth] = {};
@@ -74,6 +75,27 @@ class VolumeMaker {
   }
 
  private:
+  // A leaf's triangles lie anywhere in the mesh. The corners of those of the next node and the
+  // indices of the one after are read ahead, so that the waits for memory overlap.
+  void touch_next(const Part& part, size_t at) const {
+    if (at >= 1) {
+      for_each_triangle(part.nodes[at - 1], [&](uint32_t i) { mesh_.touch_corners(i); });
+    }
+    if (at >= 2) {
+      for_each_triangle(part.nodes[at - 2], [&](uint32_t i) { mesh_.touch_indices(i); });
+    }
+  }
+
+  // Of the leaves that are the node's children.
+  template <class Body>
+  static void for_each_triangle(const WideNode& wide, const Body& body) {
+    for (uint32_t i = 0; i < wide.child_count; ++i) {
+      if (!wide.child[i]->is_leaf) continue;
+      const auto& leaf = *static_cast<const LeafNode*>(wide.child[i]);
+      for (uint64_t j = 0; j < leaf.reference_count; ++j) body(leaf.references[j].primitive);
+    }
+  }
+
   void make_leaf(const LeafNode& leaf, uint32_t block, Bounded& bounded) const {
     fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop, frame_);
     write_blocks(mesh_, leaf, &parts_.blocks[block]);
