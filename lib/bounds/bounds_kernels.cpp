@@ -67,7 +67,7 @@ void fit(const DirectionTable& directions, const RelativePoint* points, uint64_t
 }  // namespace
 
 const BoundsKernels& target_bounds_kernels() {
-  static constexpr BoundsKernels kKernels = {fit, add_to_gram, choose_one, choose};
+  static constexpr BoundsKernels kKernels = {fit, widths, add_to_gram, choose_one, choose};
   return kKernels;
 }
 

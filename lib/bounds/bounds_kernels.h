@@ -45,11 +45,13 @@ struct BoundsKernels {
   // p - c (u), of the dot product (3 u) and of the widening itself (2 u).
   void (*fit)(const DirectionTable& directions, const RelativePoint* points, uint64_t count,
               Kdop& kdop);
+  // The widths of a k-DOP times `scale`, zero past the table's count.
+  void (*widths)(const Kdop& kdop, float scale, float width[kMaxDirections]);
   // Adds one volume to a Gram matrix. Widths are scaled (by one over the scene's radius), so that
   // no product overflows.
   void (*add_to_gram)(const Kdop& kdop, float scale, float weight, Gram& gram);
   // The basis of least area of one volume by a strategy; equal areas go to the lowest indices.
-  // `width` has table.stride() widths, scaled as above, zero past the table's count.
+  // `width` has table.stride() widths, scaled as above; what is past the table's count is ignored.
   TripleChoice (*choose_one)(const BasisTable& table, const float* width, sobb_strategy strategy);
   // The same for the volumes of a Gram matrix; the table is of kMaxDirections at most.
   BasisChoice (*choose)(const BasisTable& table, const Gram& gram, sobb_strategy strategy);

@@ -20,15 +20,19 @@ namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
+void widths(const Kdop& kdop, float scale, float width[kMaxDirections]) {
+  const Tag d;
+  for (uint32_t k = 0; k < kMaxDirections; k += hn::Lanes(d)) {
+    const auto extent = hn::Sub(hn::Load(d, kdop.upper + k), hn::Load(d, kdop.lower + k));
+    hn::StoreU(hn::Mul(extent, hn::Set(d, scale)), d, width + k);
+  }
+}
+
 void add_to_gram(const Kdop& kdop, float scale, float weight, Gram& gram) {
   const Tag d;
   // The weight's root in both factors: the matrix is symmetric to the last bit.
-  const auto factor = hn::Set(d, scale * std::sqrt(weight));
   alignas(64) float width[kMaxDirections];
-  for (uint32_t k = 0; k < kMaxDirections; k += hn::Lanes(d)) {
-    const auto extent = hn::Sub(hn::Load(d, kdop.upper + k), hn::Load(d, kdop.lower + k));
-    hn::Store(hn::Mul(extent, factor), d, width + k);
-  }
+  widths(kdop, scale * std::sqrt(weight), width);
   for (uint32_t i = 0; i < kMaxDirections; ++i) {
     const auto across = hn::Set(d, width[i]);
     for (uint32_t k = 0; k < kMaxDirections; k += hn::Lanes(d)) {

@@ -102,7 +102,7 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   Image image = begin_image(
       memory,
       {settings.width, static_cast<uint32_t>(directions.size()), wide.node_count, wide.block_count},
-      parts);
+      parts, Zeroed::kAllButNodesAndBlocks);
   fill_header(summary, mesh.triangle_count(), settings, wide.depth, *parts.header);
   fill_record(summary, topology.root()->reference_count, settings, *parts.record);
   std::copy(directions.begin(), directions.end(), parts.directions.begin());

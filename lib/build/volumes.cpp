@@ -69,6 +69,7 @@ class VolumeMaker {
           child[i] = below != nullptr ? below : &bounded[wide.index[i] - part.first_node];
         }
       }
+      nodes[part.first_node + at] = {};
       make_node(wide, child, nodes[part.first_node + at], bounded[at]);
     }
     return bounded[0];
@@ -98,6 +99,7 @@ class VolumeMaker {
 
   void make_leaf(const LeafNode& leaf, uint32_t block, Bounded& bounded) const {
     fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop, frame_);
+    std::fill_n(&parts_.blocks[block], blocks_of(leaf.reference_count), TriangleBlock{});
     write_blocks(mesh_, leaf, &parts_.blocks[block]);
     bounded.cost = kBlockCost * static_cast<float>(blocks_of(leaf.reference_count));
     find_basis(bounded);
@@ -107,9 +109,7 @@ class VolumeMaker {
   void find_basis(Bounded& bounded) const {
     if (settings_.volume == SOBB_VOLUME_AABB) return;
     alignas(64) float width[kMaxDirections];
-    for (uint32_t k = 0; k < kMaxDirections; ++k) {
-      width[k] = scale_ * (bounded.kdop.upper[k] - bounded.kdop.lower[k]);
-    }
+    kernels_.widths(bounded.kdop, scale_, width);
     const TripleChoice choice = kernels_.choose_one(table_, width, settings_.strategy);
     bounded.basis = make_basis(choice.direction[0], choice.direction[1], choice.direction[2]);
     bounded.area = choice.area;

@@ -20,8 +20,8 @@ struct VolumeSettings {
   sobb_isa isa;
 };
 
-// Fills the nodes and blocks of `parts`, whose header (centre, radius, width) and directions are
-// set. Progress runs from `progress_begin` to 1.
+// Fills the nodes and blocks of `parts`, zeroed or not, whose header (centre, radius, width) and
+// directions are set. Progress runs from `progress_begin` to 1.
 void make_volumes(const Mesh& mesh, const WideTopology& wide, const VolumeSettings& settings,
                   const ImageParts& parts, const Scheduler& scheduler, Memory& memory,
                   Progress& progress, double progress_begin);

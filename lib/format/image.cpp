@@ -42,9 +42,9 @@ Image::Image(std::shared_ptr<Memory> memory, uint64_t size) : size_(size) {
   memory_ = std::move(memory);
 }
 
-Image Image::allocate(std::shared_ptr<Memory> memory, uint64_t size) {
+Image Image::allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t zeroed) {
   Image image(std::move(memory), size);
-  if (size != 0) std::memset(image.data_, 0, size);
+  if (zeroed != 0) std::memset(image.data_, 0, zeroed);
   return image;
 }
 

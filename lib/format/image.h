@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "base/memory.h"
 
@@ -16,7 +17,11 @@ class Image {
  public:
   Image() = default;
   // Private zeroed bytes, aligned to 64 or, where large, to huge pages.
-  static Image allocate(std::shared_ptr<Memory> memory, uint64_t size);
+  static Image allocate(std::shared_ptr<Memory> memory, uint64_t size) {
+    return allocate(std::move(memory), size, size);
+  }
+  // The same, of which only the first `zeroed` bytes are zero; the others are to be written.
+  static Image allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t zeroed);
   // A private copy of a regular file. Errors: FILE_OPEN, FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT.
   static Image read(std::shared_ptr<Memory> memory, const char* path);
   // The file where it lies, read-only. Errors: FILE_OPEN, FILE_READ.

@@ -30,7 +30,8 @@ uint64_t size_of(SectionId id, const Shape& shape) {
 
 }  // namespace
 
-Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts& parts) {
+Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts& parts,
+                  Zeroed zeroed) {
   Section sections[kSectionCount] = {};
   uint64_t end = sizeof(FileHeader) + sizeof sections;
   for (uint32_t i = 0; i < kSectionCount; ++i) {
@@ -41,7 +42,8 @@ Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts
     end = offset + sections[i].size;
   }
 
-  Image image = Image::allocate(std::move(memory), end);
+  Image image =
+      Image::allocate(std::move(memory), end, zeroed == Zeroed::kAll ? end : sections[2].offset);
   std::byte* const data = image.bytes().data();
   auto* const header = reinterpret_cast<FileHeader*>(data);
   std::ranges::copy(kMagic, header->magic);

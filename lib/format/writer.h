@@ -21,7 +21,7 @@ struct Shape {
 };
 
 // An image in the making: allocated and laid out by begin_image(), its parts filled by the build,
-// then sealed. All bytes not written stay zero.
+// then sealed. All bytes not written are zero.
 struct ImageParts {
   FileHeader* header;  // volume, depth, centre, radius, triangle_count are the build's to fill
   std::span<Direction> directions;
@@ -30,8 +30,11 @@ struct ImageParts {
   BuildRecord* record;
 };
 
-// Allocates the image, writes magic, version, sizes and section table. O(1) but for the zeroing.
-Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts& parts);
+// Allocates the image, writes magic, version, sizes and section table. O(1) but for the zeroing,
+// which for nodes and blocks may be left to the threads that fill them.
+enum class Zeroed { kAll, kAllButNodesAndBlocks };
+Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts& parts,
+                  Zeroed zeroed = Zeroed::kAll);
 
 // Computes the checksums, in parallel; the image is then a valid file.
 void seal_image(Image& image, const Scheduler& scheduler);
