@@ -33,27 +33,45 @@ template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], uint32_t direction,
                             size_t first, V& near, V& far) {
   const ChildFloats<W> d;
-  const uint32_t falls = std::bit_cast<uint32_t>(table.reciprocal[direction]) >> 31;
-  const V r = hn::Set(d, table.reciprocal[direction]);
-  near = hn::Max(
-      near, hn::MulAdd(hn::Load(d, slab[falls] + first), r, hn::Set(d, table.near[direction])));
-  far = hn::Min(
-      far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r, hn::Set(d, table.far[direction])));
+  const RayTable::Entry& entry = table.entry[direction];
+  const uint32_t falls = std::bit_cast<uint32_t>(entry.reciprocal) >> 31;
+  const V r = hn::Set(d, entry.reciprocal);
+  near = hn::Max(near, hn::MulAdd(hn::Load(d, slab[falls] + first), r, hn::Set(d, entry.near)));
+  far = hn::Min(far, hn::MulAdd(hn::Load(d, slab[1 - falls] + first), r, hn::Set(d, entry.far)));
 }
 
-// A lookup by each child's own direction, the j-th of its basis. Two children are too few to
-// gather.
+// Entries of four children, each child's in a block of 128 bits, as vectors over the children.
+// In every block that V has: rows a, b, c, d of (r, n, f, -) become columns.
+template <class V, class D = hn::DFromV<V>>
+HWY_INLINE SlabCoefficients<V> transpose(D d, V a, V b, V c, V e) {
+  const hn::Repartition<uint64_t, D> pairs;
+  const auto low_ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));  // r r n n
+  const auto low_cd = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+  const auto high_ab = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));  // f f - -
+  const auto high_cd = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+  return {hn::BitCast(d, hn::InterleaveLower(pairs, low_ab, low_cd)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, low_ab, low_cd)),
+          hn::BitCast(d, hn::InterleaveLower(pairs, high_ab, high_cd))};
+}
+
+// What the table has for the j-th direction of each child's own basis. Loads and shuffles: gathers
+// take twice as long or more.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
-HWY_INLINE V look_up(const float* values, const uint16_t* basis, int j) {
+HWY_INLINE SlabCoefficients<V> look_up(const RayTable& table, const uint16_t* basis, int j) {
+  const hn::CappedTag<float, 4> d4;
+  const auto entry = [&](int child) HWY_ATTR {
+    return hn::Load(d4, &table.entry[basis_direction(basis[child], j)].reciprocal);
+  };
   const ChildFloats<W> d;
   if constexpr (W == 2) {
-    return hn::InterleaveLower(d, hn::Set(d, values[basis_direction(basis[0], j)]),
-                               hn::Set(d, values[basis_direction(basis[1], j)]));
+    const auto low = hn::InterleaveLower(d4, entry(0), entry(1));
+    const auto high = hn::InterleaveUpper(d4, entry(0), entry(1));
+    return {hn::LowerHalf(d, low), hn::UpperHalf(d, low), hn::LowerHalf(d, high)};
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    return transpose(d, entry(0), entry(1), entry(2), entry(3));
   } else {
-    const hn::RebindToSigned<ChildFloats<W>> di;
-    const hn::Rebind<uint16_t, ChildFloats<W>> d16;
-    const auto all = hn::PromoteTo(di, hn::Load(d16, basis));
-    return hn::GatherIndex(d, values, hn::And(hn::ShiftRightSame(all, 5 * j), hn::Set(di, 31)));
+    return transpose(d, hn::Combine(d, entry(4), entry(0)), hn::Combine(d, entry(5), entry(1)),
+                     hn::Combine(d, entry(6), entry(2)), hn::Combine(d, entry(7), entry(3)));
   }
 }
 
@@ -63,11 +81,11 @@ template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_own(const RayTable& table, const float (&slab)[2][W], const uint16_t* basis,
                          int j, size_t first, V& near, V& far) {
   const ChildFloats<W> d;
-  const V r = look_up<W>(table.reciprocal, basis, j);
-  const V lower = hn::Mul(hn::Load(d, slab[0] + first), r);
-  const V upper = hn::Mul(hn::Load(d, slab[1] + first), r);
-  near = hn::Max(near, hn::Add(hn::Min(lower, upper), look_up<W>(table.near, basis, j)));
-  far = hn::Min(far, hn::Add(hn::Max(lower, upper), look_up<W>(table.far, basis, j)));
+  const SlabCoefficients<V> c = look_up<W>(table, basis, j);
+  const V lower = hn::Mul(hn::Load(d, slab[0] + first), c.reciprocal);
+  const V upper = hn::Mul(hn::Load(d, slab[1] + first), c.reciprocal);
+  near = hn::Max(near, hn::Add(hn::Min(lower, upper), c.near));
+  far = hn::Min(far, hn::Add(hn::Max(lower, upper), c.far));
 }
 
 }  // namespace
