@@ -88,4 +88,16 @@ std::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit, double leas
   return peaks;
 }
 
+OrthogonalFrame DirectionHistogram::principal_axes() const {
+  Vector tensor[3] = {};
+  for (const Cell& cell : cells_) {
+    const double norm = length(cell.sum);
+    if (norm == 0) continue;
+    for (size_t i = 0; i < 3; ++i) {
+      for (size_t j = 0; j < 3; ++j) tensor[i][j] += cell.sum[i] / norm * cell.sum[j];
+    }
+  }
+  return sobb::principal_axes(tensor);
+}
+
 }  // namespace sobb

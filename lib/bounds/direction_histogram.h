@@ -7,7 +7,7 @@
 #include <memory_resource>
 #include <vector>
 
-#include "bounds/area.h"
+#include "bounds/principal_axes.h"
 
 namespace sobb {
 
@@ -28,6 +28,10 @@ class DirectionHistogram {
   // The heaviest peaks, at most `limit`, heaviest first; of those nearer to each other than
   // kPeakSpacing the heavier one. Every share is `least_share` or more.
   std::vector<DirectionPeak> peaks(uint32_t limit, double least_share) const;
+
+  // The eigenvectors of the sum of w n n^T: where no single direction stands out, these still turn
+  // with the scene.
+  OrthogonalFrame principal_axes() const;
 
  private:
   // A cell has about 1.4 degrees across. Half the octahedron's faces, unfolded to a square.

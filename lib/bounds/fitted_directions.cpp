@@ -3,70 +3,31 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "bounds/direction_table.h"
 
 namespace sobb {
 namespace {
 
-// Sine of the angle by which two peaks may miss a right angle, and are one frame all the same.
+// Sine of the angle by which two peaks may miss a right angle, and span a frame all the same.
 constexpr double kPerpendicular = 0.01;
-// A frame nearer to the axes than this is theirs: the normals of small triangles are no better.
+// Frames nearer to each other than this, component by component, are one.
+constexpr double kSameFrame = 1e-3;
+// A frame nearer to the axes than this is theirs: it was found within rounding only.
 constexpr double kAxesDistance = 1e-5;
 
-Vector normalized(const Vector& v) {
-  const double norm = length(v);
-  return {v[0] / norm, v[1] / norm, v[2] / norm};
+Vector scaled(const Vector& v, double factor) {
+  return {v[0] * factor, v[1] * factor, v[2] * factor};
 }
 
-// The part of v perpendicular to a unit vector.
+// The part of v perpendicular to a unit vector, made a unit vector.
 Vector reject(const Vector& v, const Vector& from) {
   const double along = dot(v, from);
-  return normalized({v[0] - along * from[0], v[1] - along * from[1], v[2] - along * from[2]});
+  const Vector part = {v[0] - along * from[0], v[1] - along * from[1], v[2] - along * from[2]};
+  return scaled(part, 1 / length(part));
 }
 
-Vector second_axis(const Vector& first, std::span<const DirectionPeak> normals,
-                   std::span<const DirectionPeak> edges) {
-  for (const auto& peaks : {normals, edges}) {
-    for (const DirectionPeak& peak : peaks) {
-      if (std::fabs(dot(peak.direction, first)) < kPerpendicular) {
-        return reject(peak.direction, first);
-      }
-    }
-  }
-  // The axis that is most nearly perpendicular.
-  const auto flattest = std::min_element(
-      first.begin(), first.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); });
-  Vector axis{0, 0, 0};
-  axis[static_cast<size_t>(flattest - first.begin())] = 1;
-  return reject(axis, first);
-}
-
-// Which vector stands for which axis, and with which sign: such that the cosines sum up highest.
-SceneFrame nearest_to_axes(const Vector (&vectors)[3]) {
-  int order[3] = {0, 1, 2};
-  int best[3] = {0, 1, 2};
-  double most = 0;
-  do {
-    double sum = 0;
-    for (size_t k = 0; k < 3; ++k) sum += std::fabs(vectors[order[k]][k]);
-    if (sum > most) {
-      most = sum;
-      std::copy(order, order + 3, best);
-    }
-  } while (std::next_permutation(order, order + 3));
-  SceneFrame frame;
-  for (size_t k = 0; k < 3; ++k) {
-    frame.axis[k] = vectors[best[k]];
-    if (frame.axis[k][k] < 0) {
-      for (double& component : frame.axis[k]) component = -component;
-    }
-  }
-  return frame;
-}
-
-double distance(const SceneFrame& a, const SceneFrame& b) {
+double distance(const OrthogonalFrame& a, const OrthogonalFrame& b) {
   double most = 0;
   for (size_t k = 0; k < 3; ++k) {
     for (size_t i = 0; i < 3; ++i) {
@@ -76,47 +37,68 @@ double distance(const SceneFrame& a, const SceneFrame& b) {
   return most;
 }
 
-Direction to_direction(const Vector& v) {
-  const Vector unit = normalized(v);
-  return {static_cast<float>(unit[0]), static_cast<float>(unit[1]), static_cast<float>(unit[2])};
+// Which vector stands for which axis, and with which sign: such that the cosines sum up highest.
+OrthogonalFrame nearest_to_axes(const Vector& first, const Vector& second) {
+  const Vector vectors[3] = {first, second, cross(first, second)};
+  size_t order[3] = {0, 1, 2};
+  size_t best[3] = {0, 1, 2};
+  double most = 0;
+  do {
+    double sum = 0;
+    for (size_t k = 0; k < 3; ++k) sum += std::fabs(vectors[order[k]][k]);
+    if (sum > most) {
+      most = sum;
+      std::copy(order, order + 3, best);
+    }
+  } while (std::next_permutation(order, order + 3));
+  OrthogonalFrame frame;
+  for (size_t k = 0; k < 3; ++k) {
+    const Vector& v = vectors[best[k]];
+    frame.axis[k] = scaled(v, v[k] < 0 ? -1 : 1);
+  }
+  return frame;
 }
-
-double cosine(const Direction& a, const Direction& b) { return std::fabs(dot(a, b)); }
 
 }  // namespace
 
-SceneFrame scene_frame(std::span<const DirectionPeak> normals,
-                       std::span<const DirectionPeak> edges) {
-  const SceneFrame axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  if (normals.empty()) return axes;
-  const Vector& first = normals[0].direction;
-  const Vector second = second_axis(first, normals, edges);
-  const SceneFrame frame = nearest_to_axes({first, second, cross(first, second)});
-  return distance(frame, axes) < kAxesDistance ? axes : frame;
+std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
+                                              std::span<const DirectionPeak> edges,
+                                              std::span<const OrthogonalFrame> principal) {
+  const OrthogonalFrame axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::vector<OrthogonalFrame> frames = {axes};
+  const auto add = [&](const Vector& first, const Vector& second, size_t room) {
+    const OrthogonalFrame frame = nearest_to_axes(first, reject(second, first));
+    const auto same = [&](const OrthogonalFrame& other) {
+      return distance(frame, other) < (&other == frames.data() ? kAxesDistance : kSameFrame);
+    };
+    if (frames.size() < room && std::none_of(frames.begin(), frames.end(), same)) {
+      frames.push_back(frame);
+    }
+  };
+  std::vector<Vector> peaks;
+  for (const auto& list : {normals, edges}) {
+    for (const DirectionPeak& peak : list) peaks.push_back(peak.direction);
+  }
+  for (size_t second = 1; second < peaks.size(); ++second) {
+    for (size_t first = 0; first < second; ++first) {
+      if (std::fabs(dot(peaks[first], peaks[second])) < kPerpendicular) {
+        add(peaks[first], peaks[second], kMostFrames - principal.size());
+      }
+    }
+  }
+  for (const OrthogonalFrame& frame : principal) add(frame.axis[0], frame.axis[1], kMostFrames);
+  return frames;
 }
 
-std::vector<Direction> fit_directions(uint32_t k, const SceneFrame& frame,
-                                      std::span<const DirectionPeak> normals) {
+std::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame) {
   std::vector<Direction> directions;
   for (const Direction& n : default_directions(k)) {
     Vector turned;
     for (size_t i = 0; i < 3; ++i) {
       turned[i] = n.x * frame.axis[0][i] + n.y * frame.axis[1][i] + n.z * frame.axis[2][i];
     }
-    directions.push_back(to_direction(turned));
-  }
-  size_t first = 3;  // of those that may be replaced
-  for (const DirectionPeak& peak : normals) {
-    const Direction wanted = to_direction(peak.direction);
-    const auto near_wanted = [&](const Direction& a, const Direction& b) {
-      return cosine(a, wanted) < cosine(b, wanted);
-    };
-    const auto kept = directions.begin() + static_cast<ptrdiff_t>(first);
-    const Direction& taken = *std::max_element(directions.begin(), kept, near_wanted);
-    if (cosine(taken, wanted) > 0.9999 || kept == directions.end()) continue;
-    std::iter_swap(kept, std::max_element(kept, directions.end(), near_wanted));
-    *kept = wanted;
-    ++first;
+    directions.push_back({static_cast<float>(turned[0]), static_cast<float>(turned[1]),
+                          static_cast<float>(turned[2])});
   }
   return directions;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A direction table fitted to a scene: the well-spread set turned into the scene's own frame, with
-// the scene's dominant directions among it.
+// A direction table fitted to a scene: the well-spread set turned into a frame of the scene's own.
+// (Dominant normals beside the frame's, in place of what is nearest to them in the set, change the
+// triangles a ray tests by -4 to +6 %, by scene: they are not taken.)
 #pragma once
 
 #include <cstdint>
@@ -12,19 +13,15 @@
 
 namespace sobb {
 
-// Three perpendicular unit vectors out of the heaviest peaks: the first of the normals; the first
-// perpendicular to it, of the normals or else of the edges; their cross product. Ordered and signed
-// as near to the axes as can be; the axes themselves where that is within rounding, or where no
-// normal stands out.
-struct SceneFrame {
-  Vector axis[3];
-};
-SceneFrame scene_frame(std::span<const DirectionPeak> normals,
-                       std::span<const DirectionPeak> edges);
+// The frames that a scene may have, at most kMostFrames: the axes; every two perpendicular peaks,
+// heaviest first, with their cross product; principal axes. Each is ordered and signed as near to
+// the axes as can be.
+inline constexpr size_t kMostFrames = 14;
+std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
+                                              std::span<const DirectionPeak> edges,
+                                              std::span<const OrthogonalFrame> principal);
 
-// k/2 directions: the frame, then the default set turned into it, in which the normals that the
-// frame lacks replace what is nearest to them.
-std::vector<Direction> fit_directions(uint32_t k, const SceneFrame& frame,
-                                      std::span<const DirectionPeak> normals);
+// The default set of k/2 directions, its axes turned to a frame's. As it is for the axes.
+std::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame);
 
 }  // namespace sobb

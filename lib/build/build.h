@@ -18,6 +18,7 @@ struct BuildSettings {
   sobb_volume volume;
   sobb_quality quality;
   sobb_strategy strategy;
+  sobb_table table;
   sobb_isa isa;
   uint32_t k;      // 6 for the AABB
   uint32_t width;  // 4 or 8

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import sobb
 from sobb.describe import describe_hierarchy, describe_scene, print_facts
-from sobb.hierarchy import QUALITIES, STRATEGIES, VOLUMES, Hierarchy, build
+from sobb.hierarchy import QUALITIES, STRATEGIES, TABLES, VOLUMES, Hierarchy, build
 from sobb.progress import bar
 from sobb.scene import Scene
 from sobb.view import View, default_view, read_views
@@ -58,6 +58,9 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--k", type=int, choices=(32, 48, 64), default=64)
     command.add_argument("--quality", choices=QUALITIES, default="medium")
     command.add_argument("--strategy", choices=STRATEGIES, default="k2")
+    command.add_argument(
+        "--table", choices=TABLES, default="spread", help="directions spread evenly, or fitted"
+    )
     command.add_argument("--width", type=int, choices=(4, 8), default=8)
     command.add_argument("--threads", type=_count, default=0, help="at most; 0 for all")
 
@@ -140,6 +143,7 @@ def _build(options: argparse.Namespace) -> None:
             k=options.k,
             quality=options.quality,
             strategy=options.strategy,
+            table=options.table,
             width=options.width,
             threads=options.threads,
             progress=progress,

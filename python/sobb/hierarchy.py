@@ -19,6 +19,7 @@ from sobb.triangles import TriangleArgument
 VOLUMES = {"aabb": 1, "sobb": 2}
 QUALITIES = {"low": 1, "medium": 2, "high": 3}
 STRATEGIES = {"k": 1, "k2": 2, "k3": 3}
+TABLES = {"spread": 1, "fitted": 2}
 
 _OPEN_MAP = 1
 _TRACE_COHERENT = 1
@@ -85,13 +86,14 @@ class Hierarchy:
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of sobb_info; volume, quality and strategy by name. O(nodes)."""
+        """The members of sobb_info; volume, quality, strategy and table by name. O(nodes)."""
         struct = structs.HierarchyInfo()
         check(library.core().sobb_get_info(self.handle, byref(struct)))
         info = structs.to_namespace(struct)
         info.volume = name_of(VOLUMES, info.volume)
         info.quality = name_of(QUALITIES, info.quality)
         info.strategy = name_of(STRATEGIES, info.strategy)
+        info.table = name_of(TABLES, info.table)
         return info
 
     @overload
@@ -181,6 +183,7 @@ def build(
     k: int = 64,
     quality: str = "medium",
     strategy: str = "k2",
+    table: str = "spread",
     width: int = 8,
     threads: int = 0,
     isa: str = "best",
@@ -191,8 +194,9 @@ def build(
 
     triangles: a Scene; or vertices, float32 (n, 3), with faces, uint32 (m, 3).
     volume: "sobb" or "aabb". k: planes of the k-DOP, 32, 48 or 64. quality: "low", "medium",
-    "high". strategy: "k", "k2", "k3". width: children a node, 4 or 8. threads: at most this many;
-    0 for all. isa: changes only speed. memory_limit: bytes that the build may hold; 0 for none.
+    "high". strategy: "k", "k2", "k3". table: the directions, "spread" evenly or "fitted" to the
+    scene's own. width: children a node, 4 or 8. threads: at most this many; 0 for all. isa: changes
+    only speed. memory_limit: bytes that the build may hold; 0 for none.
     progress: called now and then, on another thread, with the fraction done, 0 to 1; what it
     raises cancels the build and comes out of here. So does Ctrl-C.
     """
@@ -215,6 +219,7 @@ def build(
         k=unsigned("k", k),
         quality=number_of("quality", QUALITIES, quality),
         strategy=number_of("strategy", STRATEGIES, strategy),
+        table=number_of("table", TABLES, table),
         width=unsigned("width", width),
         threads=unsigned("threads", threads),
         isa=isa_number(isa),

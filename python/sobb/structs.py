@@ -44,6 +44,8 @@ class BuildOptions(SizedStruct):
         ("scheduler", c_void_p),
         ("progress", Progress),
         ("progress_user", c_void_p),
+        ("table", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -103,6 +105,8 @@ class HierarchyInfo(SizedStruct):
         ("volume_ms", c_double),
         ("total_ms", c_double),
         ("peak_bytes", c_uint64),
+        ("table", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 
@@ -146,9 +150,12 @@ class SceneView(ctypes.Structure):
     ]
 
 
+_UNSEEN = ("struct_size", "reserved")
+
+
 def to_namespace(struct: SizedStruct) -> SimpleNamespace:
-    """The members of an information struct but for its size; arrays become tuples."""
-    values = {name: getattr(struct, name) for name, _ in struct._fields_ if name != "struct_size"}
+    """The members of an information struct that say something; arrays become tuples."""
+    values = {name: getattr(struct, name) for name, _ in struct._fields_ if name not in _UNSEEN}
     return SimpleNamespace(
         **{k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()}
     )

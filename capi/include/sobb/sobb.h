@@ -196,6 +196,19 @@ typedef enum sobb_strategy {
   SOBB_STRATEGY_K3 = 3  /**< all triples */
 } sobb_strategy;
 
+/** Where the directions of SOBBs come from. */
+typedef enum sobb_table {
+  SOBB_TABLE_DEFAULT = 0, /**< spread */
+  SOBB_TABLE_SPREAD = 1,  /**< the library's own set: the axes, and directions spread evenly */
+  /**
+   * Fitted to the scene: the spread set turned into the frame that the scene's own normals and
+   * edges suggest, in which the topology is built too. For walls, floors and machine parts that are
+   * turned against the axes; where no frame is better than the axes it is the spread set. Not for
+   * the AABB.
+   */
+  SOBB_TABLE_FITTED = 2
+} sobb_table;
+
 /** Options of sobb_build(). Zero in a member means its default. */
 typedef struct sobb_build_options {
   uint32_t struct_size;
@@ -215,6 +228,8 @@ typedef struct sobb_build_options {
    */
   int (*progress)(void* user, double fraction);
   void* progress_user;
+  uint32_t table;    /**< a sobb_table */
+  uint32_t reserved; /**< zero */
 } sobb_build_options;
 
 /**
@@ -303,7 +318,7 @@ typedef struct sobb_info {
   uint64_t nodes;
   uint64_t leaves;
   uint64_t blocks;       /**< of four triangles */
-  uint64_t axes_nodes;   /**< nodes whose shared basis is the axes */
+  uint64_t axes_nodes;   /**< nodes whose shared basis is the axes (of a fitted table, its frame) */
   uint64_t shared_nodes; /**< nodes with another basis shared by all children */
   uint64_t own_nodes;    /**< nodes with a basis for each child */
   uint64_t bytes;        /**< of the file, and in memory */
@@ -315,11 +330,13 @@ typedef struct sobb_info {
   double inner_area; /**< sum of the inner children's areas over the box's area */
   double leaf_area;  /**< sum of the leaves' areas over the box's area */
   /* Of the build, in milliseconds and bytes; zero for a hierarchy that was opened. */
-  double topology_ms; /**< primitive bounds and Embree's builder */
+  double topology_ms; /**< a fitted table, primitive bounds and Embree's builder */
   double collapse_ms; /**< binary to wide */
   double volume_ms;   /**< k-DOPs, volumes, nodes and triangle blocks */
   double total_ms;
   uint64_t peak_bytes; /**< the most held at once, Embree's builder included */
+  uint32_t table;      /**< SOBB_TABLE_SPREAD for the library's own directions, else _FITTED */
+  uint32_t reserved;   /**< zero */
 } sobb_info;
 
 /** Fills @p info up to its struct_size. Thread-safe. Cost: O(nodes). */
