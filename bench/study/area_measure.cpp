@@ -32,27 +32,55 @@ float AreaMeasure::area(sobb_volume volume, const Kdop& kdop) const {
   return kernels_.choose_one(table_, width, SOBB_STRATEGY_K2).area;
 }
 
-Kdop AreaMeasure::bound(const BinaryTree& tree, const BinaryNode& leaf) const {
-  Kdop result = kdop(tree.references[leaf.first]);
-  for (uint32_t i = 1; i < leaf.count; ++i) result.merge(kdop(tree.references[leaf.first + i]));
-  return result;
+float AreaMeasure::area_in(uint16_t basis, const Kdop& kdop) const {
+  float width[3];
+  for (int j = 0; j < 3; ++j) {
+    const uint32_t k = basis_direction(basis, j);
+    width[j] = (kdop.upper[k] - kdop.lower[k]) * scale_;
+  }
+  const float* inverse =
+      table_.inverse_determinants(basis_direction(basis, 0), basis_direction(basis, 1));
+  return 2 * (width[0] * width[1] + width[1] * width[2] + width[2] * width[0]) *
+         inverse[basis_direction(basis, 2)];
 }
 
-std::vector<float> AreaMeasure::areas(sobb_volume volume, const BinaryTree& tree) const {
-  std::vector<float> result(tree.nodes.size());
-  // From the last node to the first, both children of a node have been met just before it.
+uint16_t AreaMeasure::shared_basis(std::span<const Kdop* const> kdops, const float* weights) const {
+  Gram gram = {};
+  for (size_t i = 0; i < kdops.size(); ++i) {
+    kernels_.add_to_gram(*kdops[i], scale_, weights[i], gram);
+  }
+  return kernels_.choose(table_, gram, SOBB_STRATEGY_K2).basis;
+}
+
+template <class Visit>
+void AreaMeasure::each_kdop(const BinaryTree& tree, const Visit& visit) const {
+  // In this order both children of a node have been met just before it.
   std::vector<Kdop> met;
   for (size_t at = tree.nodes.size(); at-- > 0;) {
     const BinaryNode& node = tree.nodes[at];
     if (node.is_leaf()) {
-      met.push_back(bound(tree, node));
+      met.push_back(kdop(tree.references[node.first]));
+      for (uint32_t i = 1; i < node.count; ++i) {
+        met.back().merge(kdop(tree.references[node.first + i]));
+      }
     } else {
       const Kdop first = met.back();
       met.pop_back();
       met.back().merge(first);
     }
-    result[at] = area(volume, met.back());
+    visit(at, met.back());
   }
+}
+
+std::vector<float> AreaMeasure::areas(sobb_volume volume, const BinaryTree& tree) const {
+  std::vector<float> result(tree.nodes.size());
+  each_kdop(tree, [&](size_t at, const Kdop& kdop) { result[at] = area(volume, kdop); });
+  return result;
+}
+
+std::vector<Kdop> AreaMeasure::kdops(const BinaryTree& tree) const {
+  std::vector<Kdop> result(tree.nodes.size());
+  each_kdop(tree, [&](size_t at, const Kdop& kdop) { result[at] = kdop; });
   return result;
 }
 

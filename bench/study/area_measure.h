@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "binary_tree.h"
@@ -24,11 +25,18 @@ class AreaMeasure {
   // along the axes.
   float area(sobb_volume volume, const Kdop& kdop) const;
 
+  float area_in(uint16_t basis, const Kdop& kdop) const;
+  // The basis of the least sum of areas, each by its weight.
+  uint16_t shared_basis(std::span<const Kdop* const> kdops, const float* weights) const;
+
   // Of every node of a tree.
   std::vector<float> areas(sobb_volume volume, const BinaryTree& tree) const;
+  std::vector<Kdop> kdops(const BinaryTree& tree) const;
 
  private:
-  Kdop bound(const BinaryTree& tree, const BinaryNode& leaf) const;
+  // Calls visit(node, k-DOP) from the last node to the first.
+  template <class Visit>
+  void each_kdop(const BinaryTree& tree, const Visit& visit) const;
 
   DirectionTable directions_;
   BasisTable table_;

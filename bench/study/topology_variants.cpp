@@ -10,6 +10,7 @@
 #include "greedy_collapse.h"
 #include "leaf_choice.h"
 #include "sah_builder.h"
+#include "shared_collapse.h"
 #include "stopwatch.h"
 
 namespace sobb::study {
@@ -37,6 +38,7 @@ class Variants {
     wide("embree", "embree", embree, SOBB_VOLUME_SOBB);
     exact("embree", "embree", embree, SOBB_VOLUME_AABB, Leaves::kKept);
     exact("embree", "embree", embree, SOBB_VOLUME_SOBB, Leaves::kKept);
+    sharing("embree", "embree", embree, Leaves::kKept);
 
     auto fine = timed([&] {
       return SahBuilder(measure_, tangents_, {SOBB_VOLUME_AABB, 3, false, 1})
@@ -47,13 +49,14 @@ class Variants {
     chosen_leaves("embree", fine, SOBB_VOLUME_SOBB);
     exact("embree", "aabb", fine, SOBB_VOLUME_AABB, Leaves::kChosen);
     exact("embree", "sobb", fine, SOBB_VOLUME_SOBB, Leaves::kChosen);
+    sharing("embree", "sobb", fine, Leaves::kChosen);
 
     built("aabb", by_aabb);
     built("sobb", by_sobb);
     built("sobb-all-directions", {SOBB_VOLUME_SOBB, all});
     built("sobb-fibres", {SOBB_VOLUME_SOBB, 3, true});
     const auto finest = timed([&] { return build({SOBB_VOLUME_SOBB, all, true, 1}); });
-    exact("sobb-all-directions-fibres", "sobb", finest, SOBB_VOLUME_SOBB, Leaves::kChosen);
+    sharing("sobb-all-directions-fibres", "sobb", finest, Leaves::kChosen);
   }
 
  private:
@@ -108,6 +111,12 @@ class Variants {
         splits, leaves_name, volume == SOBB_VOLUME_AABB ? "exact-aabb" : "exact-sobb", from, [&] {
           return collapse_exactly(from.tree, measure_.areas(volume, from.tree), kWidth, leaves);
         });
+  }
+
+  void sharing(const char* splits, const char* leaves_name, const Timed& from,
+               Leaves leaves) const {
+    collapsed(splits, leaves_name, "exact-sharing", from,
+              [&] { return collapse_sharing(from.tree, measure_, leaves); });
   }
 
   template <class Cut>
