@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/isa.h"
 #include "bounds/direction_table.h"
 #include "build/collapse.h"
+#include "build/frame.h"
 #include "build/mesh.h"
+#include "build/scene_directions.h"
 #include "build/topology.h"
 #include "build/volumes.h"
 #include "format/writer.h"
@@ -69,16 +72,34 @@ void fill_record(const MeshSummary& summary, uint64_t reference_count,
   record.bounds_max[2] = summary.upper.z;
 }
 
+std::vector<Direction> choose_directions(const Mesh& mesh, const BuildSettings& settings,
+                                         const Scheduler& scheduler, Memory& memory) {
+  if (settings.table == SOBB_TABLE_FITTED) {
+    return scene_directions(mesh, settings.k, scheduler, memory);
+  }
+  const auto directions = default_directions(settings.k);
+  return {directions.begin(), directions.end()};
+}
+
 }  // namespace
 
 BuildSettings::BuildSettings(const sobb_build_options& options)
     : volume(choose(options.volume, SOBB_VOLUME_SOBB, SOBB_VOLUME_SOBB, "volume")),
       quality(choose(options.quality, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH, "quality")),
       strategy(choose(options.strategy, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3, "strategy")),
+      table(choose(options.table, SOBB_TABLE_SPREAD, SOBB_TABLE_FITTED, "table")),
       isa(resolve_isa(options.isa)),
       k(choose_number(options.k, 64, {32, 48, 64}, "k")),
       width(choose_number(options.width, 8, {4, 8}, "width")) {
-  if (volume == SOBB_VOLUME_AABB) k = 6;
+  if (options.reserved != 0) {
+    fail(SOBB_ERROR_INVALID_ARGUMENT, "build options: reserved is %u", options.reserved);
+  }
+  if (volume != SOBB_VOLUME_AABB) return;
+  if (table == SOBB_TABLE_FITTED) {
+    fail(SOBB_ERROR_INVALID_ARGUMENT,
+         "build options: a fitted table is for SOBBs, and the volume is the AABB");
+  }
+  k = 6;
 }
 
 Built build(const sobb_triangles& triangles, const BuildSettings& settings,
@@ -88,7 +109,9 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   progress.check(0, kTopologyEnd, 0);
   const Mesh mesh(triangles, scheduler);
   const MeshSummary summary = summarise(mesh, scheduler, *memory);
-  const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd);
+  const std::vector<Direction> directions = choose_directions(mesh, settings, scheduler, *memory);
+  const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd,
+                          Frame(directions, summary.centre));
   times.topology_ms = ms_since(start);
 
   const auto collapse_start = Clock::now();
@@ -97,7 +120,6 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   progress.check(kTopologyEnd, kCollapseEnd, 1);
 
   const auto volume_start = Clock::now();
-  const auto directions = default_directions(settings.k);
   ImageParts parts;
   Image image = begin_image(
       memory,
