@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/highway_targets.h"
 
@@ -20,14 +19,9 @@ namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::CappedTag<float, 8>;
-using Indices = hn::RebindToSigned<Floats>;
-
 void fit(const DirectionTable& directions, const RelativePoint* points, uint64_t count,
          Kdop& kdop) {
-  const Floats d;
+  const Tag d;
   RelativePoint largest{0, 0, 0};
   for (uint64_t i = 0; i < count; ++i) {
     largest = {std::max(largest.x, std::fabs(points[i].x)),
@@ -82,9 +76,10 @@ float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis) {
   const uint32_t i = basis_direction(basis, 0);
   const uint32_t j = basis_direction(basis, 1);
   const uint32_t l = basis_direction(basis, 2);
-  float entry[3] = {gram.sum[i][j], gram.sum[j][l], gram.sum[i][l]};
-  std::sort(entry, entry + 3);
-  return 2 * (((entry[0] + entry[1]) + entry[2]) * table.inverse_determinants(i, j)[l]);
+  const auto [low, high] = std::minmax(gram.sum[i][j], gram.sum[j][l]);
+  const float middle = std::min(high, gram.sum[i][l]);
+  const float sum = std::min(low, middle) + std::max(low, middle) + std::max(high, gram.sum[i][l]);
+  return 2 * (sum * table.inverse_determinants(i, j)[l]);
 }
 
 const BoundsKernels& bounds_kernels(sobb_isa isa) {

@@ -169,6 +169,7 @@ TEST(Basis, EachStrategyFindsWhatItDescribes) {
           ASSERT_EQ(choice.basis, expected.basis)
               << "seed " << kSeed << " k " << k << " round " << round << " strategy " << strategy;
           ASSERT_EQ(choice.area, expected.area);
+          ASSERT_EQ(choice.area, area_in_basis(table.basis, gram, choice.basis));
         }
         area[strategy] = expected.area;
       }
