@@ -3,12 +3,13 @@
 // parent: how many visits does it save to know where the ray leaves the parent, and what time do
 // they take?
 #include <algorithm>
-#include <chrono>
+#include <limits>
 #include <memory>
-#include <stdexcept>
 
 #include "basis_rules.h"
+#include "check.h"
 #include "counting_trace.h"
+#include "stopwatch.h"
 #include "study_scene.h"
 
 namespace sobb::study {
@@ -49,9 +50,7 @@ Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>
   options.struct_size = sizeof options;
   options.width = width;
   sobb_hierarchy* built = nullptr;
-  if (sobb_build(&scene.triangles(), &options, &built) != SOBB_OK) {
-    throw std::runtime_error(sobb_last_error());
-  }
+  bench::check(sobb_build(&scene.triangles(), &options, &built));
   const std::shared_ptr<sobb_hierarchy> hierarchy(built, sobb_release);
   std::vector<sobb_hit> hits(rays.size());
   std::vector<sobb_count> counts(rays.size());
@@ -64,12 +63,12 @@ Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>
 
   trace.counts = nullptr;
   trace.threads = 1;
-  double least = 0;
+  const bench::Stopwatch stopwatch(trace.threads);
+  double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kTimedPasses; ++pass) {
-    const auto start = std::chrono::steady_clock::now();
-    sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace);
-    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
-    least = pass == 0 ? time.count() : std::min(least, time.count());
+    least = std::min(least, 1e9 * stopwatch.seconds_of([&] {
+      sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace);
+    }));
   }
   const auto count = static_cast<double>(rays.size());
   return {{"width", width},
