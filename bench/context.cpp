@@ -33,6 +33,7 @@ void add_context(const Workbench& workbench) {
   add("k", std::to_string(flags.k));
   add("quality", quality_name(flags.quality));
   add("strategy", strategy_name(flags.strategy));
+  add("table", flags.table == SOBB_TABLE_FITTED ? "fitted" : "spread");
   add("width", std::to_string(flags.width));
   add("threads", std::to_string(flags.threads));
   add("clock", flags.threads == 1 ? "processor time" : "wall");

@@ -17,6 +17,7 @@ SobbSubject::SobbSubject(const SceneInput& scene, Method method, const Flags& fl
   options.k = flags.k;
   options.quality = flags.quality;
   options.strategy = flags.strategy;
+  if (method != Method::kAabb) options.table = flags.table;
   options.width = flags.width;
   options.threads = flags.threads;
   sobb_hierarchy* hierarchy = nullptr;

@@ -26,6 +26,8 @@ def test_build_and_validate(cli, built, tmp_path):
     done = cli("validate", built)
     assert done.returncode == 0 and "valid" in done.stdout and done.stderr == ""
     other = tmp_path / "other.sobb"
+    assert cli("build", f"{SCENE}@30", "-o", other, "--table", "fitted").returncode == 0
+    assert json.loads(cli("info", other, "--json").stdout)["table"] == "fitted"
     options = "--volume aabb --quality high --width 4 --threads 1".split()
     assert cli("build", SCENE, "-o", other, *options).returncode == 0
     facts = json.loads(cli("info", other, "--json").stdout)

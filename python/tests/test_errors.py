@@ -58,6 +58,7 @@ def test_arrays_of_a_wrong_shape_or_type(vertices, faces):
         {"volume": "obb"},
         {"quality": "best"},
         {"strategy": "k4"},
+        {"table": "round"},
         {"isa": "avx512"},
         {"threads": -1},
         {"threads": 1 << 32},

@@ -24,6 +24,15 @@ def test_equals_brute_force(mesh, rays, width, quality):
         np.testing.assert_array_equal(found, right)
 
 
+def test_a_fitted_table_brings_a_turned_scene_back():
+    with sobb.Scene.load("builtin:city:3000@30") as turned:
+        spread, fitted = sobb.build(turned), sobb.build(turned, table="fitted")
+    assert (spread.info.table, fitted.info.table) == ("spread", "fitted")
+    assert fitted.info.leaf_area < 0.7 * spread.info.leaf_area
+    with pytest.raises(sobb.Error, match="fitted table is for SOBBs"):
+        sobb.build([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], volume="aabb", table="fitted")
+
+
 @pytest.mark.parametrize("k", [32, 48, 64])
 @pytest.mark.parametrize("strategy", ["k", "k2", "k3"])
 def test_options_reach_the_build(mesh, rays, k, strategy):

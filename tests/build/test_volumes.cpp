@@ -140,6 +140,22 @@ TEST_P(Volumes, HoldTheTrianglesBelow) {
   }
 }
 
+TEST_P(Volumes, HoldTheTrianglesBelowInAFittedFrame) {
+  const Soup& soup = GetParam();
+  const Scheduler serial(1, nullptr);
+  const Mesh mesh(soup.view(), serial);
+  for (const uint32_t quality : {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
+    SCOPED_TRACE(soup.name + " quality " + std::to_string(quality));
+    sobb_build_options options = options_of(64, quality, 8);
+    options.table = SOBB_TABLE_FITTED;
+    const Built built = build_soup(soup, options);
+    ASSERT_NO_THROW(
+        read_image(built.image.bytes(), "built", serial, *std::pmr::get_default_resource()));
+    check<8>(built.view, mesh, quality == SOBB_QUALITY_HIGH);
+    if (HasFatalFailure()) return;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Soups, Volumes,
     testing::Values(random_soup(1, 500), random_soup(2, 200, 1.5), random_soup(3, 1),
@@ -147,7 +163,9 @@ INSTANTIATE_TEST_SUITE_P(
                     placed(random_soup(6, 200), 1, 1e6), placed(random_soup(7, 200, 1), 0x1p58, 0),
                     placed(sliver_soup(8, 200), 1e-6, 0), placed(random_soup(9, 200), 1e-38, 0),
                     placed(random_soup(10, 200), 1e-44, 0), degenerate_soup(11, 200), closed_box(4),
-                    identical_soup(60)),
+                    identical_soup(60), turned_boxes(12, 60), placed(turned_boxes(13, 40), 1, 1e5),
+                    placed(turned_boxes(14, 40), 0x1p58, 0),
+                    placed(turned_boxes(15, 40), 1e-40, 0)),
     [](const testing::TestParamInfo<Soup>& info) { return "soup" + std::to_string(info.index); });
 
 // Spatial splits bound the parts of a triangle by boxes one after the other: a box may be left that

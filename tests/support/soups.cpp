@@ -128,6 +128,36 @@ Soup closed_box(uint32_t cells) {
   return soup;
 }
 
+Soup turned_boxes(uint64_t seed, uint32_t boxes) {
+  constexpr double kFrame[3][3] = {
+      {2 / 3.0, -1 / 3.0, 2 / 3.0}, {2 / 3.0, 2 / 3.0, -1 / 3.0}, {-1 / 3.0, 2 / 3.0, 2 / 3.0}};
+  Random random(seed);
+  const Soup unit = closed_box(1);
+  Soup soup{"turned boxes", {}, {}};
+  for (uint32_t i = 0; i < boxes; ++i) {
+    const double largest = i % 16 == 0 ? 1 : 0.1;
+    double low[3];
+    double size[3];
+    for (int k = 0; k < 3; ++k) {
+      low[k] = random.uniform();
+      size[k] = largest * random.uniform();
+    }
+    for (uint64_t t = 0; t < unit.indices.size() / 3; ++t) {
+      float corner[3][3];
+      for (int c = 0; c < 3; ++c) {
+        double at[3];
+        for (int k = 0; k < 3; ++k) at[k] = low[k] + size[k] * unit.corner(t, c)[k];
+        for (int k = 0; k < 3; ++k) {
+          corner[c][k] = static_cast<float>(kFrame[0][k] * at[0] + kFrame[1][k] * at[1] +
+                                            kFrame[2][k] * at[2]);
+        }
+      }
+      soup.add(corner[0], corner[1], corner[2]);
+    }
+  }
+  return soup;
+}
+
 Soup degenerate_soup(uint64_t seed, uint32_t triangles) {
   Random random(seed);
   Soup soup{"degenerate", {}, {}};

@@ -55,6 +55,9 @@ Soup random_soup(uint64_t seed, uint32_t triangles, double size = 0.1);
 Soup sliver_soup(uint64_t seed, uint32_t triangles);
 // A closed grid-faced box: shared vertices and edges, axis-aligned faces.
 Soup closed_box(uint32_t cells);
+// Closed boxes along a frame of their own, which is turned against the axes. A few are large and go
+// through the others, so that spatial splits have something to cut.
+Soup turned_boxes(uint64_t seed, uint32_t boxes);
 // Doubled, coplanar, degenerate and point-like triangles.
 Soup degenerate_soup(uint64_t seed, uint32_t triangles);
 // The triangles of `soup` times `scale`, moved by `offset` along (1, 1, 1).
