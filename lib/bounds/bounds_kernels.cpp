@@ -82,6 +82,12 @@ float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis) {
   return 2 * (sum * table.inverse_determinants(i, j)[l]);
 }
 
+TripleChoice or_frame(const BasisTable& table, const float* width, const TripleChoice& choice) {
+  const float faces = width[0] * width[1] + width[1] * width[2] + width[2] * width[0];
+  const float area = 2 * (faces * table.inverse_determinants(0, 1)[2]);
+  return area < choice.area ? TripleChoice{{0, 1, 2}, area} : choice;
+}
+
 const BoundsKernels& bounds_kernels(sobb_isa isa) {
   return isa == SOBB_ISA_AVX2 ? N_AVX2::target_bounds_kernels() : N_SSE4::target_bounds_kernels();
 }

@@ -38,6 +38,10 @@ struct TripleChoice {
 // The weighted sum of areas in a basis: what choose() minimises, to the last bit.
 float area_in_basis(const BasisTable& table, const Gram& gram, uint16_t basis);
 
+// A choice for one volume of these widths, or the table's frame, its first three directions, where
+// that has less area: the narrowest slab of a round volume can lead k and k^2 to worse.
+TripleChoice or_frame(const BasisTable& table, const float* width, const TripleChoice& choice);
+
 // One set a sobb_isa; all return the same bits.
 struct BoundsKernels {
   // The k-DOP of points: lower = min n . p - e, upper = max n . p + e, where

@@ -110,7 +110,8 @@ class VolumeMaker {
     if (settings_.volume == SOBB_VOLUME_AABB) return;
     alignas(64) float width[kMaxDirections];
     kernels_.widths(bounded.kdop, scale_, width);
-    const TripleChoice choice = kernels_.choose_one(table_, width, settings_.strategy);
+    const TripleChoice choice =
+        or_frame(table_, width, kernels_.choose_one(table_, width, settings_.strategy));
     bounded.basis = make_basis(choice.direction[0], choice.direction[1], choice.direction[2]);
     bounded.area = choice.area;
   }

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,8 @@ class NodesOf final : public Hierarchy::Nodes {
 
   void convert(const Scheduler& scheduler) override {
     const WideTopology& wide = layout_.wide;
-    image_ = Image::allocate(memory_, wide.node_count * sizeof(Node));
+    // The threads that fill the nodes zero them.
+    image_ = Image::allocate(memory_, wide.node_count * sizeof(Node), /*zeroed=*/0);
     nodes_ = reinterpret_cast<Node*>(image_.bytes().data());
     std::pmr::vector<Known> roots(wide.subtrees.size(), memory_.get());
     scheduler.for_each(wide.subtrees.size(),
@@ -141,7 +143,7 @@ class NodesOf final : public Hierarchy::Nodes {
     std::pmr::vector<Known> known(part.nodes.size(), memory_.get());
     for (size_t at = part.nodes.size(); at-- > 0;) {
       const WideNode& wide = part.nodes[at];
-      Node& node = nodes_[part.first_node + at];
+      Node& node = *new (&nodes_[part.first_node + at]) Node{};
       for (uint32_t i = 0; i < wide.child_count; ++i) {
         Known leaf;
         if (wide.child[i]->is_leaf) fit_leaf(wide, i, leaf);
@@ -191,6 +193,7 @@ class NodesOf final : public Hierarchy::Nodes {
     }
     scheduler.for_each(count, [&](uint64_t at) HWY_ATTR {
       const WideNode& node = wide.top.nodes[at];
+      new (&nodes_[at]) Node{};
       for (uint32_t i = 0; i < node.child_count; ++i) {
         const TopChild& child = children[at * W + i];
         write_child(node, i, child.hull, child.ranges, nodes_[at]);

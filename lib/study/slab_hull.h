@@ -34,11 +34,12 @@ struct alignas(64) SlabHull {
     }
   }
 
-  // The triple of least area by the strategy.
+  // The triple of least area by the strategy, or the axes.
   TripleChoice choose(const Tables& tables) const {
     alignas(64) float width[N];
     for (uint32_t k = 0; k < N; ++k) width[k] = (upper[k] - lower[k]) * tables.scale;
-    return tables.kernels.choose_one(tables.bases, width, tables.strategy);
+    const TripleChoice choice = tables.kernels.choose_one(tables.bases, width, tables.strategy);
+    return or_frame(tables.bases, width, choice);
   }
 };
 

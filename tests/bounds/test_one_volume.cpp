@@ -211,5 +211,23 @@ TEST(OneVolume, RefusesMoreDirectionsThanItSearches) {
   EXPECT_ANY_THROW(BasisTable(directions, *std::pmr::get_default_resource()));
 }
 
+// Of a cube's table with a diagonal that is a little narrower, k takes the diagonal; the frame is
+// better.
+TEST(OrFrame, IsTakenWhereItHasLessArea) {
+  const float kThird = std::sqrt(1.0F / 3);
+  const Direction directions[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {kThird, kThird, kThird}};
+  const BasisTable table(directions, *std::pmr::get_default_resource());
+  const float width[8] = {1, 1, 1, 0.99F};
+  const TripleChoice chosen =
+      bounds_kernels(SOBB_ISA_SSE4).choose_one(table, width, SOBB_STRATEGY_K);
+  EXPECT_EQ(chosen.direction[2], 3U);
+  const TripleChoice better = or_frame(table, width, chosen);
+  EXPECT_EQ(better.direction[2], 2U);
+  EXPECT_FLOAT_EQ(better.area, 6);
+  const float thin[8] = {1, 1, 1, 0.01F};
+  const TripleChoice right = bounds_kernels(SOBB_ISA_SSE4).choose_one(table, thin, SOBB_STRATEGY_K);
+  EXPECT_EQ(or_frame(table, thin, right).direction[2], 3U);
+}
+
 }  // namespace
 }  // namespace sobb::test
