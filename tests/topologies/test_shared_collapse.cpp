@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// The collapse that knows the shared basis makes nodes and leaves that a file can hold.
+#include "shared_collapse.h"
+
+#include <gtest/gtest.h>
+
+#include "base/memory.h"
+#include "format/layout.h"
+#include "sah_builder.h"
+#include "support/soups.h"
+#include "wide_layout.h"
+
+namespace sobb::study {
+namespace {
+
+TEST(SharedCollapse, KeepsEveryTriangleAndTheLimits) {
+  const Scheduler scheduler(1, nullptr);
+  const std::vector<Vector> no_fibres;
+  for (const test::Soup& soup : {test::random_soup(1, 400), test::sliver_soup(2, 300),
+                                 test::degenerate_soup(3, 200), test::identical_soup(100)}) {
+    SCOPED_TRACE(soup.name);
+    Memory memory;
+    const Mesh mesh(soup.view(), scheduler);
+    const AreaMeasure measure(mesh, summarise(mesh, scheduler, memory), memory);
+    BinaryTree tree;
+    for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
+      tree.references.push_back({Corners(mesh, i).box(), i});
+    }
+    SahBuilder(measure, no_fibres, {SOBB_VOLUME_SOBB, 3, false, 1}).build(tree);
+    for (const Leaves leaves : {Leaves::kKept, Leaves::kChosen}) {
+      const WideCut cut = collapse_sharing(tree, measure, leaves);
+      const WideLayout layout = lay_out(tree, cut, memory);
+      uint64_t triangles = 0;
+      for (const WideNode& node : layout.topology.top.nodes) {
+        EXPECT_GE(node.child_count, 2U);
+        EXPECT_LE(node.child_count, kMaxWidth);
+        for (uint32_t i = 0; i < node.child_count; ++i) {
+          if (!node.child[i]->is_leaf) continue;
+          EXPECT_LE(node.child[i]->reference_count, leaves == Leaves::kKept ? 1 : 8);
+          triangles += node.child[i]->reference_count;
+        }
+      }
+      EXPECT_EQ(triangles, mesh.triangle_count());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sobb::study
