@@ -43,7 +43,7 @@ void DirectionHistogram::add(const Vector& v) {
   const double sign = v[2] < 0 ? -1 : 1;
   const double scale = sign / (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2]));
   const auto cell_of = [&](double coordinate) {  // from -1 to 1
-    return std::min(static_cast<uint32_t>((coordinate + 1) * (kSide / 2)), kSide - 1);
+    return std::min(static_cast<uint32_t>((coordinate + 1) * (0.5 * kSide)), kSide - 1);
   };
   Cell& cell = cells_[cell_of(scale * (v[0] + v[1])) * kSide + cell_of(scale * (v[0] - v[1]))];
   cell.weight += weight;
