@@ -23,7 +23,7 @@ constexpr BasisRule kRules[] = {{BasisFrom::kEachChild, SOBB_STRATEGY_K2, false}
                                 {BasisFrom::kSumOrAxes, SOBB_STRATEGY_K2, true}};
 
 Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
-                   const std::vector<sobb_ray>& rays) {
+                   WorkCounter& counter) {
   const auto directions = default_directions(kPlanes);
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
@@ -37,8 +37,8 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
     const auto bases = chooser.choose(rule);
     const BoundedTree bounded = {tree, kdops, bases, table, summary, scene.mesh()};
     rules.push_back({{"rule", rule.name()},
-                     {"unclipped", to_json(count_work(bounded, rays, Clip::kRay, scheduler))},
-                     {"clipped", to_json(count_work(bounded, rays, Clip::kParent, scheduler))}});
+                     {"unclipped", to_json(counter.count(bounded, Clip::kRay))},
+                     {"clipped", to_json(counter.count(bounded, Clip::kParent))}});
   }
   return {{"width", width}, {"rules", rules}};
 }
@@ -83,9 +83,10 @@ int clipping(const StudyOptions& options) {
   write_report(options, "clipping", for_each_scene(options, [&](StudyScene& scene) {
                  const Topology topology = scene.build_topology();
                  const auto rays = scene.secondary_rays(options.size);
+                 WorkCounter counter(rays, scene.scheduler());
                  Json widths = Json::array();
                  for (const uint32_t width : kWidths) {
-                   widths.push_back(measure_width(scene, topology, width, rays));
+                   widths.push_back(measure_width(scene, topology, width, counter));
                  }
                  return Json{
                      {"rays", rays.size()},

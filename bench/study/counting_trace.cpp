@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "build/collapse.h"
 #include "format/layout.h"
@@ -29,6 +30,9 @@ class RaySlabs {
                               ray.origin[2] - static_cast<double>(summary.centre.z)};
     const double distance = std::hypot(origin[0], origin[1], origin[2]);
     const double error = 16 * 0x1p-24 * (2 * distance + summary.radius);
+    const double least = kSmallestCosine * std::hypot(static_cast<double>(ray.direction[0]),
+                                                      static_cast<double>(ray.direction[1]),
+                                                      static_cast<double>(ray.direction[2]));
     const DirectionTable& table = bounded.directions;
     for (uint32_t k = 0; k < table.count; ++k) {
       const double along_origin =
@@ -36,7 +40,7 @@ class RaySlabs {
       const double along = static_cast<double>(table.x[k]) * ray.direction[0] +
                            static_cast<double>(table.y[k]) * ray.direction[1] +
                            static_cast<double>(table.z[k]) * ray.direction[2];
-      reciprocal_[k] = 1 / std::copysign(std::max(std::fabs(along), kSmallestCosine), along);
+      reciprocal_[k] = 1 / std::copysign(std::max(std::fabs(along), least), along);
       near_[k] = -along_origin * reciprocal_[k] - error * std::fabs(reciprocal_[k]);
       far_[k] = -along_origin * reciprocal_[k] + error * std::fabs(reciprocal_[k]);
     }
@@ -164,6 +168,13 @@ Work count_work(const BoundedTree& bounded, std::span<const sobb_ray> rays, Clip
   const auto count = static_cast<double>(std::max<size_t>(rays.size(), 1));
   for (double* mean : {&sum.nodes, &sum.volumes, &sum.leaves, &sum.triangles}) *mean /= count;
   return sum;
+}
+
+Work WorkCounter::count(const BoundedTree& bounded, Clip clip) {
+  const Work work = count_work(bounded, rays_, clip, scheduler_);
+  if (!first_) first_ = work;
+  if (!work.same_hits(*first_)) throw std::logic_error("a tree's hits differ from another's");
+  return work;
 }
 
 Json to_json(const Work& work) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,11 +36,30 @@ struct Work {
   double leaves = 0;
   double triangles = 0;
   uint64_t hits = 0;
-  double distance = 0;  // sum of t over the hits: the same for every tree of a scene
+  double distance = 0;  // sum of t over the hits
+
+  bool same_hits(const Work& other) const {
+    return hits == other.hits && distance == other.distance;
+  }
 };
 
 Work count_work(const BoundedTree& bounded, std::span<const sobb_ray> rays, Clip clip,
                 const Scheduler& scheduler);
+
+// The same for a scene's rays again and again. Throws std::logic_error where the hits are not those
+// of the first time: a volume then lost a triangle.
+class WorkCounter {
+ public:
+  WorkCounter(std::span<const sobb_ray> rays, const Scheduler& scheduler)
+      : rays_(rays), scheduler_(scheduler) {}
+
+  Work count(const BoundedTree& bounded, Clip clip = Clip::kRay);
+
+ private:
+  std::span<const sobb_ray> rays_;
+  const Scheduler& scheduler_;
+  std::optional<Work> first_;
+};
 
 // {"nodes", "volumes", "leaves", "triangles"}, a ray.
 Json to_json(const Work& work);

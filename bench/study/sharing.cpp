@@ -29,7 +29,7 @@ constexpr BasisRule kRules[] = {
 };
 
 Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
-                   const std::vector<sobb_ray>& rays) {
+                   WorkCounter& counter) {
   const auto directions = default_directions(kPlanes);
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
@@ -42,8 +42,7 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
   for (const BasisRule& rule : kRules) {
     const auto bases = chooser.choose(rule);
     const AreaSums areas = sum_areas(tree, kdops, bases, table, scene.box_area());
-    const Work work =
-        count_work({tree, kdops, bases, table, summary, scene.mesh()}, rays, Clip::kRay, scheduler);
+    const Work work = counter.count({tree, kdops, bases, table, summary, scene.mesh()});
     rules.push_back({{"rule", rule.name()},
                      {"inner_area", rounded(areas.inner)},
                      {"leaf_area", rounded(areas.leaf)},
@@ -58,9 +57,10 @@ int sharing(const StudyOptions& options) {
   write_report(options, "sharing", for_each_scene(options, [&](StudyScene& scene) {
                  const Topology topology = scene.build_topology();
                  const auto rays = scene.secondary_rays(options.size);
+                 WorkCounter counter(rays, scene.scheduler());
                  Json widths = Json::array();
                  for (const uint32_t width : kWidths) {
-                   widths.push_back(measure_width(scene, topology, width, rays));
+                   widths.push_back(measure_width(scene, topology, width, counter));
                  }
                  return Json{{"rays", rays.size()}, {"widths", widths}};
                }));

@@ -35,7 +35,7 @@ NamedTable fitted_table(StudyScene& scene, uint32_t k) {
 
 Json measure_width(StudyScene& scene, const TopologyNode& root, uint32_t width,
                    const std::vector<Direction>& directions, const BasisRule& rule,
-                   const std::vector<sobb_ray>& rays) {
+                   WorkCounter& counter) {
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
   const Scheduler& scheduler = scene.scheduler();
@@ -45,23 +45,22 @@ Json measure_width(StudyScene& scene, const TopologyNode& root, uint32_t width,
   const BasisChooser chooser(directions, tree, kdops, summary.radius, scheduler, scene.memory());
   const auto bases = chooser.choose(rule);
   const AreaSums areas = sum_areas(tree, kdops, bases, table, scene.box_area());
-  const Work work =
-      count_work({tree, kdops, bases, table, summary, scene.mesh()}, rays, Clip::kRay, scheduler);
+  const Work work = counter.count({tree, kdops, bases, table, summary, scene.mesh()});
   return {{"rule", rule.name()},
           {"inner_area", rounded(areas.inner)},
           {"leaf_area", rounded(areas.leaf)},
           {"work", to_json(work)}};
 }
 
-Json measure_table(StudyScene& scene, const NamedTable& table, const std::vector<sobb_ray>& rays) {
+Json measure_table(StudyScene& scene, const NamedTable& table, WorkCounter& counter) {
   const Frame frame(table.directions, scene.summary().centre);
   const Topology topology = scene.build_topology(frame);
   const bool aabb = table.directions.size() == 3;
   return {{"table", table.name},
-          {"binary",
-           measure_width(scene, *topology.root(), 2, table.directions, aabb ? kAxes : kOwn, rays)},
+          {"binary", measure_width(scene, *topology.root(), 2, table.directions,
+                                   aabb ? kAxes : kOwn, counter)},
           {"wide", measure_width(scene, *topology.root(), 8, table.directions,
-                                 aabb ? kAxes : kShared, rays)}};
+                                 aabb ? kAxes : kShared, counter)}};
 }
 
 }  // namespace
@@ -75,12 +74,13 @@ int tables(const StudyOptions& options) {
   }
   write_report(options, "tables", for_each_scene(options, [&](StudyScene& scene) {
                  const auto rays = scene.secondary_rays(options.size);
+                 WorkCounter counter(rays, scene.scheduler());
                  Json rows = Json::array();
                  for (const NamedTable& table : tables) {
-                   rows.push_back(measure_table(scene, table, rays));
+                   rows.push_back(measure_table(scene, table, counter));
                  }
                  for (const uint32_t k : kPlanes) {
-                   rows.push_back(measure_table(scene, fitted_table(scene, k), rays));
+                   rows.push_back(measure_table(scene, fitted_table(scene, k), counter));
                  }
                  return Json{{"rays", rays.size()}, {"tables", rows}};
                }));
