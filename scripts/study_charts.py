@@ -40,14 +40,19 @@ def short(scene):
     return scene.removeprefix("builtin:").replace(".glb", "")
 
 
+def pretty(name):
+    """A name as the documents spell it."""
+    return name.replace("k2", "k²").replace("k3", "k³")
+
+
 def print_table(title, head, rows):
     print(f"\n{title}\n")
-    print("| " + " | ".join(head) + " |")
+    print("| " + " | ".join(map(pretty, head)) + " |")
     print("|---" * len(head) + "|")
     for row in rows:
         print(
             "| "
-            + " | ".join(cell if isinstance(cell, str) else f"{cell:.3f}" for cell in row)
+            + " | ".join(pretty(cell) if isinstance(cell, str) else f"{cell:.3f}" for cell in row)
             + " |"
         )
 
@@ -55,7 +60,7 @@ def print_table(title, head, rows):
 def dot_panel(axis, title, labels, series, reference=None):
     """Marks in rows. `series` is a list of (name, colour, values), None where there is none."""
     axis.set_title(title, fontsize=10, color=INK, loc="left")
-    axis.set_yticks(range(len(labels)), labels, fontsize=9)
+    axis.set_yticks(range(len(labels)), list(map(pretty, labels)), fontsize=9)
     axis.set_ylim(len(labels) - 0.5, -0.5)
     axis.grid(axis="x", color=GRID, linewidth=0.7)
     axis.tick_params(length=0, labelsize=9, colors=INK)
@@ -74,7 +79,7 @@ def dot_panel(axis, title, labels, series, reference=None):
             s=34,
             color=colour,
             marker=MARKERS[i % len(MARKERS)],
-            label=name,
+            label=pretty(name),
             zorder=3,
         )
     for side in ("top", "right", "left"):
