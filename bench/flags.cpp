@@ -33,7 +33,7 @@ void add_flags(CLI::App& app, Flags& flags) {
   app.add_option("--strategy", flags.strategy, "of the basis: k, k2 (default) or k3")
       ->transform(
           names({{"k", SOBB_STRATEGY_K}, {"k2", SOBB_STRATEGY_K2}, {"k3", SOBB_STRATEGY_K3}}));
-  app.add_option("--table", flags.table, "directions of SOBBs: spread (default) or fitted")
+  app.add_option("--table", flags.table, "directions of SOBBs: spread or fitted (default)")
       ->transform(names({{"spread", SOBB_TABLE_SPREAD}, {"fitted", SOBB_TABLE_FITTED}}));
   app.add_option("--width", flags.width, "children a node")
       ->check(CLI::IsMember({4, 8}))

@@ -17,7 +17,7 @@ struct Flags {
   uint32_t k = 64;
   uint32_t quality = SOBB_QUALITY_MEDIUM;
   uint32_t strategy = SOBB_STRATEGY_K2;
-  uint32_t table = SOBB_TABLE_SPREAD;  // of SOBBs
+  uint32_t table = SOBB_TABLE_FITTED;  // of SOBBs
   uint32_t width = 8;
   uint32_t threads = 1;
   std::string isa = "best";

@@ -87,7 +87,9 @@ BuildSettings::BuildSettings(const sobb_build_options& options)
     : volume(choose(options.volume, SOBB_VOLUME_SOBB, SOBB_VOLUME_SOBB, "volume")),
       quality(choose(options.quality, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH, "quality")),
       strategy(choose(options.strategy, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3, "strategy")),
-      table(choose(options.table, SOBB_TABLE_SPREAD, SOBB_TABLE_FITTED, "table")),
+      table(choose(options.table,
+                   volume == SOBB_VOLUME_AABB ? SOBB_TABLE_SPREAD : SOBB_TABLE_FITTED,
+                   SOBB_TABLE_FITTED, "table")),
       isa(resolve_isa(options.isa)),
       k(choose_number(options.k, 64, {32, 48, 64}, "k")),
       width(choose_number(options.width, 8, {4, 8}, "width")) {

@@ -21,6 +21,12 @@ sobb_build_options fitted_options(uint32_t quality = 0, uint32_t width = 0, uint
   return options;
 }
 
+sobb_build_options spread_options() {
+  sobb_build_options options = build_options(SOBB_VOLUME_SOBB, 0, 1);
+  options.table = SOBB_TABLE_SPREAD;
+  return options;
+}
+
 class Fitted : public testing::TestWithParam<Soup> {};
 
 TEST_P(Fitted, ReturnsTheOraclesBits) {
@@ -68,10 +74,12 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(FittedOptions, SayWhatTheTableIs) {
   const Soup boxes = turned_boxes(8, 100);
-  EXPECT_EQ(info_of(build_soup(boxes)).table, static_cast<uint32_t>(SOBB_TABLE_SPREAD));
+  const HierarchyHandle spread = build_soup(boxes, spread_options());
+  EXPECT_EQ(info_of(spread).table, static_cast<uint32_t>(SOBB_TABLE_SPREAD));
   const HierarchyHandle fitted = build_soup(boxes, fitted_options());
   EXPECT_EQ(info_of(fitted).table, static_cast<uint32_t>(SOBB_TABLE_FITTED));
-  EXPECT_LT(info_of(fitted).leaf_area, 0.7 * info_of(build_soup(boxes)).leaf_area);
+  EXPECT_LT(info_of(fitted).leaf_area, 0.7 * info_of(spread).leaf_area);
+  EXPECT_TRUE(bytes_of(build_soup(boxes)) == bytes_of(fitted)) << "the default";
   const std::string bytes = bytes_of(fitted);
   sobb_hierarchy* opened = nullptr;
   ASSERT_EQ(sobb_open_memory(bytes.data(), bytes.size(), nullptr, &opened), SOBB_OK);
@@ -80,7 +88,8 @@ TEST(FittedOptions, SayWhatTheTableIs) {
             static_cast<uint32_t>(SOBB_TABLE_SPREAD));
   // Where nothing is better than the axes, the table is the spread one, to the byte.
   const Soup straight = closed_box(4);
-  EXPECT_TRUE(bytes_of(build_soup(straight, fitted_options())) == bytes_of(build_soup(straight)));
+  EXPECT_TRUE(bytes_of(build_soup(straight, fitted_options())) ==
+              bytes_of(build_soup(straight, spread_options())));
 }
 
 TEST(FittedOptions, AreCheckedAndMayBeMissing) {
@@ -102,7 +111,7 @@ TEST(FittedOptions, AreCheckedAndMayBeMissing) {
   EXPECT_STREQ(sobb_last_error(), "build options: reserved is 1");
   // A program from before there were tables.
   options.struct_size = offsetof(sobb_build_options, table);
-  EXPECT_EQ(info_of(build_soup(boxes, options)).table, static_cast<uint32_t>(SOBB_TABLE_SPREAD));
+  EXPECT_EQ(info_of(build_soup(boxes, options)).table, static_cast<uint32_t>(SOBB_TABLE_FITTED));
 }
 
 }  // namespace
