@@ -141,8 +141,9 @@ class VolumeMaker {
     if (bases.shared) node.meta[0] |= kSharedBit;
   }
 
-  // The surface area heuristic decides between the axes for all children, another shared basis,
-  // and a basis for each child: area(node) * cost(test) + sum area(child) * cost(child).
+  // The shared basis is that of the least sum of areas. (Of the least sum of costs, rays test some
+  // more triangles: docs/study.md.) The surface area heuristic decides between it, the axes for all
+  // children, and a basis for each child: area(node) * cost(test) + sum area(child) * cost(child).
   NodeBases choose_bases(uint32_t count, const Bounded* const* child, float node_area) const {
     NodeBases bases{};
     std::fill(bases.basis, bases.basis + count, kAxesBasis);
@@ -151,15 +152,15 @@ class VolumeMaker {
     Gram gram = {};
     float own = 0;
     for (uint32_t i = 0; i < count; ++i) {
-      kernels_.add_to_gram(child[i]->kdop, scale_, child[i]->cost, gram);
+      kernels_.add_to_gram(child[i]->kdop, scale_, 1, gram);
       own += child[i]->area * child[i]->cost;
     }
-    const BasisChoice shared = kernels_.choose(table_, gram, settings_.strategy);
-    const float axes = area_in_basis(table_, gram, kAxesBasis);
-    bases.cost = axes + kSharedCost * node_area;
-    if (shared.area < axes) {
-      std::fill(bases.basis, bases.basis + count, shared.basis);
-      bases.cost = shared.area + kSharedCost * node_area;
+    const uint16_t least = kernels_.choose(table_, gram, settings_.strategy).basis;
+    const float shared = cost_below(count, child, least);
+    bases.cost = cost_below(count, child, kAxesBasis) + kSharedCost * node_area;
+    if (shared + kSharedCost * node_area < bases.cost) {
+      std::fill(bases.basis, bases.basis + count, least);
+      bases.cost = shared + kSharedCost * node_area;
     }
     if (own + kOwnCost * node_area < bases.cost) {
       for (uint32_t i = 0; i < count; ++i) bases.basis[i] = child[i]->basis;
@@ -167,6 +168,21 @@ class VolumeMaker {
       bases.shared = false;
     }
     return bases;
+  }
+
+  // sum area(child) * cost(child), all in one basis: 2 (d0 d1 + d1 d2 + d2 d0) / |det| each.
+  float cost_below(uint32_t count, const Bounded* const* child, uint16_t basis) const {
+    const uint32_t k[3] = {basis_direction(basis, 0), basis_direction(basis, 1),
+                           basis_direction(basis, 2)};
+    float sum = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+      float d[3];
+      for (int j = 0; j < 3; ++j) {
+        d[j] = (child[i]->kdop.upper[k[j]] - child[i]->kdop.lower[k[j]]) * scale_;
+      }
+      sum += (d[0] * d[1] + d[1] * d[2] + d[2] * d[0]) * child[i]->cost;
+    }
+    return 2 * sum * table_.inverse_determinants(k[0], k[1])[k[2]];
   }
 
   const Mesh& mesh_;
