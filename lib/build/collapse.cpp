@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "build/least_cost_cut.h"
 #include "format/layout.h"
 
 namespace sobb {
@@ -16,7 +17,8 @@ constexpr uint64_t kSubtreeReferences = 4096;
 
 const InnerNode& inner(const TopologyNode* node) { return *static_cast<const InnerNode*>(node); }
 
-// The children of the wide node that stands for a binary one; the order is the binary one's.
+// The children of a wide node of the top, where its subtrees are yet unknown: the largest is opened
+// until there are enough. The order is the binary one's.
 void gather_children(const TopologyNode& root, uint32_t width, WideNode& wide) {
   wide.child_count = 1;
   wide.child[0] = &root;
@@ -43,19 +45,21 @@ void gather_children(const TopologyNode& root, uint32_t width, WideNode& wide) {
 // Collapses what lies below a binary node, depth first, siblings next to each other.
 void collapse_subtree(const TopologyNode& root, uint32_t width, Part& part) {
   struct Open {
-    const TopologyNode* node;
+    uint32_t place;  // in the cut
     uint32_t index;
     uint32_t depth;
   };
+  const LeastCostCut cut(root, width, *part.nodes.get_allocator().resource());
   std::pmr::vector<Open> stack(part.nodes.get_allocator());
-  stack.push_back({&root, 0, 1});
+  stack.push_back({LeastCostCut::kRoot, 0, 1});
   part.nodes.resize(1);
   while (!stack.empty()) {
     const Open open = stack.back();
     stack.pop_back();
     part.depth = std::max(part.depth, open.depth);
     WideNode wide;
-    gather_children(*open.node, width, wide);
+    uint32_t place[kMaxWidth];
+    wide.child_count = cut.children(open.place, wide.child, place);
     for (uint32_t i = 0; i < wide.child_count; ++i) {
       if (wide.child[i]->is_leaf) {
         wide.index[i] = static_cast<uint32_t>(part.block_count);
@@ -66,14 +70,14 @@ void collapse_subtree(const TopologyNode& root, uint32_t width, Part& part) {
       }
     }
     for (uint32_t i = wide.child_count; i-- > 0;) {
-      if (!wide.child[i]->is_leaf) stack.push_back({wide.child[i], wide.index[i], open.depth + 1});
+      if (!wide.child[i]->is_leaf) stack.push_back({place[i], wide.index[i], open.depth + 1});
     }
     part.nodes[open.index] = wide;
   }
 }
 
-// Collapses the top, breadth first, down to children small enough to be subtrees. `depths` says how
-// many nodes lie above each of those.
+// Collapses the top, breadth first and greedily, down to children small enough to be subtrees.
+// `depths` says how many nodes lie above each of those.
 void collapse_top(const TopologyNode& root, uint32_t width, WideTopology& wide,
                   std::pmr::vector<uint32_t>& depths) {
   const uint64_t limit =

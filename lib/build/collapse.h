@@ -54,7 +54,8 @@ struct WideTopology {
       : top(memory), subtrees(&memory), places(&memory) {}
 };
 
-// Opens the child of the largest box until `width` children are found or only leaves are left.
+// Of the wide nodes that a subtree can have, those of the least cost (least_cost_cut.h); in the
+// top, some hundred nodes, the child of the largest box is opened until there are `width`.
 WideTopology collapse(const TopologyNode& root, uint32_t width, const Scheduler& scheduler,
                       std::pmr::memory_resource& memory);
 
