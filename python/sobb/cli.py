@@ -59,7 +59,9 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--quality", choices=QUALITIES, default="medium")
     command.add_argument("--strategy", choices=STRATEGIES, default="k2")
     command.add_argument(
-        "--table", choices=TABLES, help="directions spread evenly, or fitted to the scene (SOBBs' default)"
+        "--table",
+        choices=TABLES,
+        help="directions spread evenly, or fitted to the scene (SOBBs' default)",
     )
     command.add_argument("--width", type=int, choices=(4, 8), default=8)
     command.add_argument("--threads", type=_count, default=0, help="at most; 0 for all")

@@ -195,8 +195,9 @@ def build(
     triangles: a Scene; or vertices, float32 (n, 3), with faces, uint32 (m, 3).
     volume: "sobb" or "aabb". k: planes of the k-DOP, 32, 48 or 64. quality: "low", "medium",
     "high". strategy: "k", "k2", "k3". table: the directions, "spread" evenly or "fitted" to the
-    scene's own; None for fitted where the volume is SOBB. width: children a node, 4 or 8. threads: at most this many; 0 for all. isa: changes
-    only speed. memory_limit: bytes that the build may hold; 0 for none.
+    scene's own; None for fitted where the volume is SOBB. width: children a node, 4 or 8. threads:
+    at most this many; 0 for all. isa: changes only speed. memory_limit: bytes that the build may
+    hold; 0 for none.
     progress: called now and then, on another thread, with the fraction done, 0 to 1; what it
     raises cancels the build and comes out of here. So does Ctrl-C.
     """
