@@ -44,7 +44,7 @@ Image::Image(std::shared_ptr<Memory> memory, uint64_t size) : size_(size) {
 
 Image Image::allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t zeroed) {
   Image image(std::move(memory), size);
-  if (zeroed != 0) std::memset(image.data_, 0, zeroed);
+  if (image.data_ != nullptr) std::memset(image.data_, 0, zeroed);
   return image;
 }
 

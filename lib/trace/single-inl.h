@@ -102,10 +102,10 @@ HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestH
   const BlockRay block_ray(ray, scaled);
   const typename Volumes::Ray volume_ray(scene, scaled);
   using Node = typename Volumes::Node;
-  constexpr int W = Volumes::kWidth;
+  constexpr int kWidth = Volumes::kWidth;
   const auto* nodes = static_cast<const Node*>(scene.nodes);
 
-  StackKey stack[kMaxDepth * (W - 1) + 1];
+  StackKey stack[kMaxDepth * (kWidth - 1) + 1];
   StackKey* top = stack;
   StackKey key = kRootKey;
   float limit = scale_limit(best.limit, scaled.scale);
@@ -113,7 +113,7 @@ HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestH
     bool met = true;
     while (met && !key_is_leaf(key)) {
       const Node& node = nodes[key_index(key)];
-      NodeHits<W> hits;
+      NodeHits<kWidth> hits;
       test_node<Volumes>(volume_ray, node, scaled.tmin, limit, hits);
       counter.add_node(child_count(node));
       met = hits.mask != 0;
