@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "study/slab_children.h"
 #include "study/slab_hull.h"
 #include "study/triangles_below.h"
 #include "study/volume.h"
@@ -51,19 +52,11 @@ struct Aabb {
   }
 
   template <int W>
-  struct Children {
-    float slab[3][2][W];
-
-    void set(uint32_t i, const Aabb& box) {
-      for (int k = 0; k < 3; ++k) {
-        for (int side = 0; side < 2; ++side) slab[k][side][i] = box.slab[k][side];
-      }
-    }
+  struct Children : SlabChildren<3, W> {
+    void set(uint32_t i, const Aabb& box) { this->set_slabs(i, box.slab); }
     Aabb get(uint32_t i) const {
       Aabb box;
-      for (int k = 0; k < 3; ++k) {
-        for (int side = 0; side < 2; ++side) box.slab[k][side] = slab[k][side][i];
-      }
+      this->get_slabs(i, box.slab);
       return box;
     }
   };

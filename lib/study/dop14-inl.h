@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "study/dop_area.h"
+#include "study/slab_children.h"
 #include "study/slab_hull.h"
 #include "study/triangles_below.h"
 #include "study/volume.h"
@@ -25,7 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
 
 struct Dop14 {
-  static constexpr uint32_t kSlabs = 7;
+  static constexpr int kSlabs = 7;
   using Hull = SlabHull<8>;
   using Ray = RayTable;
 
@@ -33,7 +34,7 @@ struct Dop14 {
 
   static Dop14 fit(const Tables&, const Hull& hull, const TrianglesBelow&) {
     Dop14 dop;
-    for (uint32_t k = 0; k < kSlabs; ++k) {
+    for (int k = 0; k < kSlabs; ++k) {
       dop.slab[k][0] = hull.lower[k];
       dop.slab[k][1] = hull.upper[k];
     }
@@ -43,7 +44,7 @@ struct Dop14 {
   double area(const Tables& tables) const { return dop_area(tables.directions, slab); }
 
   bool contains(const Tables& tables, const double p[3]) const {
-    for (uint32_t k = 0; k < kSlabs; ++k) {
+    for (int k = 0; k < kSlabs; ++k) {
       const Direction& n = tables.directions[k];
       const double along = n.x * p[0] + n.y * p[1] + n.z * p[2];
       if (!(along >= slab[k][0] && along <= slab[k][1])) return false;
@@ -52,19 +53,11 @@ struct Dop14 {
   }
 
   template <int W>
-  struct Children {
-    float slab[kSlabs][2][W];
-
-    void set(uint32_t i, const Dop14& dop) {
-      for (uint32_t k = 0; k < kSlabs; ++k) {
-        for (int side = 0; side < 2; ++side) slab[k][side][i] = dop.slab[k][side];
-      }
-    }
+  struct Children : SlabChildren<kSlabs, W> {
+    void set(uint32_t i, const Dop14& dop) { this->set_slabs(i, dop.slab); }
     Dop14 get(uint32_t i) const {
       Dop14 dop;
-      for (uint32_t k = 0; k < kSlabs; ++k) {
-        for (int side = 0; side < 2; ++side) dop.slab[k][side] = slab[k][side][i];
-      }
+      this->get_slabs(i, dop.slab);
       return dop;
     }
   };
@@ -72,8 +65,8 @@ struct Dop14 {
   template <int W, class V = hn::Vec<ChildFloats<W>>>
   static HWY_INLINE void clip(const RayTable& table, const Children<W>& children, size_t first,
                               V& near, V& far) {
-    for (uint32_t k = 0; k < kSlabs; ++k) {
-      clip_shared<W>(table, children.slab[k], k, first, near, far);
+    for (int k = 0; k < kSlabs; ++k) {
+      clip_shared<W>(table, children.slab[k], static_cast<uint32_t>(k), first, near, far);
     }
   }
 };

@@ -11,6 +11,7 @@
 #include <hwy/highway.h>
 
 #include "bounds/area.h"
+#include "study/slab_children.h"
 #include "study/slab_hull.h"
 #include "study/triangles_below.h"
 #include "study/volume.h"
@@ -62,21 +63,16 @@ struct SobbIndexed {
   }
 
   template <int W>
-  struct Children {
-    float slab[3][2][W];
+  struct Children : SlabChildren<3, W> {
     uint16_t basis[W];
 
     void set(uint32_t i, const SobbIndexed& box) {
-      for (int j = 0; j < 3; ++j) {
-        for (int side = 0; side < 2; ++side) slab[j][side][i] = box.slab[j][side];
-      }
+      this->set_slabs(i, box.slab);
       basis[i] = box.basis;
     }
     SobbIndexed get(uint32_t i) const {
       SobbIndexed box;
-      for (int j = 0; j < 3; ++j) {
-        for (int side = 0; side < 2; ++side) box.slab[j][side] = slab[j][side][i];
-      }
+      this->get_slabs(i, box.slab);
       box.basis = basis[i];
       return box;
     }
