@@ -7,15 +7,12 @@ namespace {
 
 using benchmark::Counter;
 
-Counter per_triangle(uint64_t bytes, const Workbench& workbench) {
-  return static_cast<double>(bytes) / static_cast<double>(workbench.scene().info().triangle_count);
-}
-
 void build_subject(benchmark::State& state, const Workbench& workbench, Method method) {
   double topology_ms = 0, collapse_ms = 0, volume_ms = 0;
   sobb_info info{};
   for ([[maybe_unused]] auto _ : state) {
-    const SobbSubject subject(workbench.scene(), method, workbench.flags());
+    const SobbSubject subject(workbench.scene(), method, workbench.flags(),
+                              workbench.flags().threads);
     state.SetIterationTime(subject.build_seconds());
     info = subject.info();
     topology_ms += info.topology_ms;
@@ -25,7 +22,7 @@ void build_subject(benchmark::State& state, const Workbench& workbench, Method m
   state.counters["topology_ms"] = Counter(topology_ms, Counter::kAvgIterations);
   state.counters["collapse_ms"] = Counter(collapse_ms, Counter::kAvgIterations);
   state.counters["volume_ms"] = Counter(volume_ms, Counter::kAvgIterations);
-  state.counters["bytes/triangle"] = per_triangle(info.bytes, workbench);
+  state.counters["bytes/triangle"] = workbench.per_triangle(info.bytes);
   state.counters["area_inner"] = info.inner_area;
   state.counters["area_leaf"] = info.leaf_area;
 }
@@ -33,24 +30,19 @@ void build_subject(benchmark::State& state, const Workbench& workbench, Method m
 void build_peer(benchmark::State& state, const Workbench& workbench, Method method) {
   uint64_t bytes = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const EmbreePeer peer(workbench.scene(), method, workbench.flags());
+    const EmbreePeer peer(workbench.scene(), method, workbench.flags(), workbench.flags().threads);
     state.SetIterationTime(peer.build_seconds());
     bytes = peer.bytes();
   }
-  state.counters["bytes/triangle"] = per_triangle(bytes, workbench);
+  state.counters["bytes/triangle"] = workbench.per_triangle(bytes);
 }
 
 }  // namespace
 
 void register_build_rows(Workbench& workbench) {
-  for (const Method method : kSubjects) {
+  for (const Method method : kMethods) {
     register_row("build/" + name_of(method), [&workbench, method](benchmark::State& state) {
-      build_subject(state, workbench, method);
-    });
-  }
-  for (const Method method : kPeers) {
-    register_row("build/" + name_of(method), [&workbench, method](benchmark::State& state) {
-      build_peer(state, workbench, method);
+      (is_peer(method) ? build_peer : build_subject)(state, workbench, method);
     });
   }
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows KIND/METHOD/CALL: one pass over a ray set an iteration.
+#include <algorithm>
+
 #include "rows.h"
 
 namespace sobb::bench {
@@ -15,14 +17,15 @@ void set_speed(benchmark::State& state, const RaySet& set) {
 
 void trace_subject(benchmark::State& state, Workbench& workbench, RayKind kind, Method method,
                    Call call) {
-  const RaySet& set = workbench.rays(kind);
   const SobbSubject& subject = workbench.subject(method);
+  const RaySet& set = workbench.rays(kind);
   TraceOutput& output = workbench.output();
   output.resize(set);
   for ([[maybe_unused]] auto _ : state) {
     state.SetIterationTime(subject.trace(set, call, workbench.workers(), output));
   }
   set_speed(state, set);
+  state.counters["bytes/triangle"] = workbench.per_triangle(subject.info().bytes);
   if (call == Call::kSingle) {  // the kernel that counts is the single-ray one
     const WorkPerRay work = workbench.work(kind, method);
     state.counters["nodes/ray"] = work.nodes;
@@ -32,36 +35,55 @@ void trace_subject(benchmark::State& state, Workbench& workbench, RayKind kind, 
   }
 }
 
+// A clock around every ray would cost as much as the ray, so the time of the replays is that of a
+// pass with them less that of a pass without.
+void replay_subject(benchmark::State& state, Workbench& workbench, RayKind kind, Method method) {
+  const SobbSubject& subject = workbench.subject(method);
+  const RaySet& set = workbench.rays(kind);
+  TraceOutput& output = workbench.output();
+  output.resize(set);
+  double once = 0, replays = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    const double real = subject.trace(set, Call::kSingle, workbench.workers(), output);
+    const double both = subject.trace_twice(set, workbench.workers(), output);
+    state.SetIterationTime(std::max(both - real, 0.0));  // less than none by noise alone
+    once += real;
+    replays += both - real;
+  }
+  set_speed(state, set);
+  state.counters["replay_ratio"] = replays / once;
+}
+
 void trace_peer(benchmark::State& state, Workbench& workbench, RayKind kind, Method method,
                 Call call) {
-  const RaySet& set = workbench.rays(kind);
   const EmbreePeer& peer = workbench.peer(method);
+  const RaySet& set = workbench.rays(kind);
   EmbreeRays& rays = workbench.embree_rays();
   for ([[maybe_unused]] auto _ : state) {
     rays.load(set, call);
     state.SetIterationTime(peer.trace(set, call, workbench.workers(), rays));
   }
   set_speed(state, set);
+  state.counters["bytes/triangle"] = workbench.per_triangle(peer.bytes());
 }
 
 }  // namespace
 
 void register_trace_rows(Workbench& workbench) {
   for (const RayKind kind : kRayKinds) {
-    for (const Call call : kCalls) {
-      for (const Method method : kSubjects) {
-        register_row(row_name(kind, method, call),
-                     [&workbench, kind, method, call](benchmark::State& state) {
-                       trace_subject(state, workbench, kind, method, call);
-                     });
+    for (const Method method : kMethods) {
+      for (const Call call : kCalls) {
+        if (is_peer(method) && call == Call::kArray && !kEmbreeHasArrayCall) continue;
+        register_row(row_name(kind, method, call), [&workbench, kind, method,
+                                                    call](benchmark::State& state) {
+          (is_peer(method) ? trace_peer : trace_subject)(state, workbench, kind, method, call);
+        });
       }
-      if (call == Call::kArray && !kEmbreeHasArrayCall) continue;
-      for (const Method method : kPeers) {
-        register_row(row_name(kind, method, call),
-                     [&workbench, kind, method, call](benchmark::State& state) {
-                       trace_peer(state, workbench, kind, method, call);
-                     });
-      }
+      if (is_peer(method)) continue;
+      register_row(name_of(kind) + "/" + name_of(method) + "/replay",
+                   [&workbench, kind, method](benchmark::State& state) {
+                     replay_subject(state, workbench, kind, method);
+                   });
     }
   }
 }

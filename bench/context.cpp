@@ -41,7 +41,6 @@ void add_context(const Workbench& workbench) {
   add("sobb", library_version());
   add("embree", embree_version());
   add("embree_isa", flags.embree_isa.empty() ? "best" : flags.embree_isa);
-  add("embree_robust", flags.embree_robust ? "yes" : "no");
   add("processor", processor());
 }
 

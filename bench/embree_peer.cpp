@@ -28,8 +28,8 @@ class FlushDenormals {
 #endif
 };
 
-RTCDevice new_device(const Flags& flags) {
-  std::string config = "threads=" + std::to_string(flags.threads);
+RTCDevice new_device(const Flags& flags, uint32_t threads) {
+  std::string config = "threads=" + std::to_string(threads);
   if (!flags.embree_isa.empty()) config += ",isa=" + flags.embree_isa;
   RTCDevice device = rtcNewDevice(config.c_str());
   if (device == nullptr) {
@@ -45,24 +45,25 @@ bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
 
 }  // namespace
 
-EmbreePeer::EmbreePeer(const SceneInput& scene, Method method, const Flags& flags)
+EmbreePeer::EmbreePeer(const SceneInput& scene, Method method, const Flags& flags,
+                       uint32_t build_threads)
     : method_(method),
       clock_(flags.threads),
-      device_(new_device(flags), rtcReleaseDevice),
+      device_(new_device(flags, build_threads), rtcReleaseDevice),
       scene_(nullptr, rtcReleaseScene) {
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
-  build_seconds_ = clock_.seconds_of([&] { build(scene, flags); });
+  build_seconds_ = clock_.seconds_of([&] { build(scene); });
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) {
     throw std::runtime_error("Embree failed to build the scene");
   }
 }
 
-void EmbreePeer::build(const SceneInput& input, const Flags& flags) {
+void EmbreePeer::build(const SceneInput& input) {
   const sobb_triangles& triangles = input.triangles();
   scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneBuildQuality(scene_.get(), method_ == Method::kEmbreeHigh ? RTC_BUILD_QUALITY_HIGH
-                                                                       : RTC_BUILD_QUALITY_MEDIUM);
-  rtcSetSceneFlags(scene_.get(), flags.embree_robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneBuildQuality(scene_.get(),
+                          is_high(method_) ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
+  rtcSetSceneFlags(scene_.get(), is_robust(method_) ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                              triangles.vertices, 0, triangles.vertex_stride,

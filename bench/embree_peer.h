@@ -17,8 +17,9 @@ namespace sobb::bench {
 
 class EmbreePeer {
  public:
-  /// Builds; the clock runs over the commit of geometry and scene, not over making the device.
-  EmbreePeer(const SceneInput& scene, Method method, const Flags& flags);
+  /// Builds with @p build_threads (0: all); the clock runs over the commit of geometry and scene,
+  /// not over making the device.
+  EmbreePeer(const SceneInput& scene, Method method, const Flags& flags, uint32_t build_threads);
 
   Method method() const { return method_; }
   double build_seconds() const { return build_seconds_; }
@@ -37,7 +38,7 @@ class EmbreePeer {
   template <typename Ray>
   void trace_array(std::vector<Ray>& rays, bool coherent, Workers& workers) const;
 
-  void build(const SceneInput& input, const Flags& flags);
+  void build(const SceneInput& input);
 
   Method method_;
   Stopwatch clock_;

@@ -26,7 +26,7 @@ void add_flags(CLI::App& app, Flags& flags) {
   app.add_option("--k", flags.k, "planes of the k-DOP")
       ->check(CLI::IsMember({32, 48, 64}))
       ->capture_default_str();
-  app.add_option("--quality", flags.quality, "of our topology: low, medium (default) or high")
+  app.add_option("--quality", flags.quality, "of aabb and sobb: low, medium (default) or high")
       ->transform(names({{"low", SOBB_QUALITY_LOW},
                          {"medium", SOBB_QUALITY_MEDIUM},
                          {"high", SOBB_QUALITY_HIGH}}));
@@ -44,7 +44,6 @@ void add_flags(CLI::App& app, Flags& flags) {
   app.add_option("--isa", flags.isa, "our kernels: best, sse4 or avx2")
       ->check(CLI::IsMember({"best", "sse4", "avx2"}))
       ->capture_default_str();
-  app.add_flag("--embree-robust", flags.embree_robust, "Embree's scenes with the robust flag");
   app.add_option("--embree-isa", flags.embree_isa, "Embree's device option isa, e.g. sse4.2, avx2");
 }
 

@@ -15,14 +15,13 @@ struct Flags {
   std::string cameras;  // empty: the scene's own
   uint64_t view = 0;
   uint32_t k = 64;
-  uint32_t quality = SOBB_QUALITY_MEDIUM;
+  uint32_t quality = SOBB_QUALITY_MEDIUM;  // of the methods that do not say theirs
   uint32_t strategy = SOBB_STRATEGY_K2;
   uint32_t table = SOBB_TABLE_FITTED;  // of SOBBs
   uint32_t width = 8;
   uint32_t threads = 1;
   std::string isa = "best";
-  uint32_t size = 1024;  // primary rays are size x size
-  bool embree_robust = false;
+  uint32_t size = 1024;    // primary rays are size x size
   std::string embree_isa;  // empty: Embree's choice
 
   /// argv for benchmark::Initialize: the program, our defaults, the caller's --benchmark_ flags.

@@ -144,7 +144,7 @@ RaySet shadow_rays(const sobb_view& view, const Surface& surface) {
 }
 
 RaySet diffuse_rays(const Surface& surface, uint32_t bounce) {
-  RaySet set{RayKind::kDiffuse, {}};
+  RaySet set{RayKind::kDiffuse1, {}};
   set.rays.reserve(surface.points.size());
   for (size_t i = 0; i < surface.points.size(); ++i) {
     const SurfacePoint& point = surface.points[i];
@@ -159,7 +159,7 @@ RaySet diffuse_rays(const Surface& surface, uint32_t bounce) {
 
 RaySet path_rays(const sobb_triangles& triangles, const sobb_scene_info& scene, RaySet primary,
                  uint32_t bounces, const ClosestHits& closest_hits) {
-  RaySet all{RayKind::kDiffuse, {}};
+  RaySet all{RayKind::kDiffuse7, {}};
   RaySet set = std::move(primary);
   for (uint32_t bounce = 1; bounce <= bounces; ++bounce) {
     set = diffuse_rays(surface_of(triangles, scene, set, closest_hits(set)), bounce);

@@ -9,17 +9,18 @@
 
 namespace sobb::bench {
 
-SobbSubject::SobbSubject(const SceneInput& scene, Method method, const Flags& flags)
+SobbSubject::SobbSubject(const SceneInput& scene, Method method, const Flags& flags,
+                         uint32_t build_threads)
     : method_(method), threads_(flags.threads), clock_(flags.threads) {
   sobb_build_options options{};
   options.struct_size = sizeof options;
-  options.volume = method == Method::kAabb ? SOBB_VOLUME_AABB : SOBB_VOLUME_SOBB;
+  options.volume = is_aabb(method) ? SOBB_VOLUME_AABB : SOBB_VOLUME_SOBB;
   options.k = flags.k;
-  options.quality = flags.quality;
+  options.quality = is_high(method) ? uint32_t{SOBB_QUALITY_HIGH} : flags.quality;
   options.strategy = flags.strategy;
-  if (method != Method::kAabb) options.table = flags.table;
+  if (!is_aabb(method)) options.table = flags.table;
   options.width = flags.width;
-  options.threads = flags.threads;
+  options.threads = build_threads;
   sobb_hierarchy* hierarchy = nullptr;
   build_seconds_ =
       clock_.seconds_of([&] { check(sobb_build(&scene.triangles(), &options, &hierarchy)); });
@@ -42,7 +43,7 @@ double SobbSubject::trace(const RaySet& set, Call call, Workers& workers,
   return clock_.seconds_of([&] {
     switch (call) {
       case Call::kSingle:
-        return trace_single(set, workers, output);
+        return trace_single<1>(set, workers, output);
       case Call::kPacket:
         return trace_packet(set, workers, output);
       case Call::kArray:
@@ -51,16 +52,19 @@ double SobbSubject::trace(const RaySet& set, Call call, Workers& workers,
   });
 }
 
+double SobbSubject::trace_twice(const RaySet& set, Workers& workers, TraceOutput& output) const {
+  return clock_.seconds_of([&] { trace_single<2>(set, workers, output); });
+}
+
+template <int kTimes>
 void SobbSubject::trace_single(const RaySet& set, Workers& workers, TraceOutput& output) const {
+  const auto trace = [&](size_t i) {
+    return set.any_hit() ? sobb_occluded1(hierarchy_.get(), &set.rays[i], &output.occluded[i])
+                         : sobb_intersect1(hierarchy_.get(), &set.rays[i], &output.hits[i]);
+  };
   workers.for_chunks(set.rays.size(), [&](size_t begin, size_t end) {
-    if (set.any_hit()) {
-      for (size_t i = begin; i < end; ++i) {
-        check(sobb_occluded1(hierarchy_.get(), &set.rays[i], &output.occluded[i]));
-      }
-    } else {
-      for (size_t i = begin; i < end; ++i) {
-        check(sobb_intersect1(hierarchy_.get(), &set.rays[i], &output.hits[i]));
-      }
+    for (size_t i = begin; i < end; ++i) {
+      for (int time = 0; time < kTimes; ++time) check(trace(i));
     }
   });
 }

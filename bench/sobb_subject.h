@@ -24,7 +24,8 @@ struct WorkPerRay {
 
 class SobbSubject {
  public:
-  SobbSubject(const SceneInput& scene, Method method, const Flags& flags);
+  /// Builds with @p build_threads; 0 for all.
+  SobbSubject(const SceneInput& scene, Method method, const Flags& flags, uint32_t build_threads);
 
   Method method() const { return method_; }
   double build_seconds() const { return build_seconds_; }
@@ -34,9 +35,14 @@ class SobbSubject {
   /// Traces the set into @p output, which has room, and returns the seconds that it took.
   double trace(const RaySet& set, Call call, Workers& workers, TraceOutput& output) const;
 
+  /// As one ray a call, each ray traced a second time right after the first: what it needs is in
+  /// the caches then.
+  double trace_twice(const RaySet& set, Workers& workers, TraceOutput& output) const;
+
   WorkPerRay count_work(const RaySet& set) const;
 
  private:
+  template <int kTimes>
   void trace_single(const RaySet& set, Workers& workers, TraceOutput& output) const;
   void trace_packet(const RaySet& set, Workers& workers, TraceOutput& output) const;
   void trace_array(const RaySet& set, TraceOutput& output) const;

@@ -8,6 +8,11 @@
 #include <system_error>
 
 namespace sobb::bench {
+namespace {
+
+constexpr uint32_t kAllThreads = 0;
+
+}  // namespace
 
 Workbench::Workbench(const Flags& flags)
     : flags_(flags),
@@ -22,13 +27,13 @@ Workbench::~Workbench() {
 const SobbSubject& Workbench::subject(Method method) {
   const auto found = subjects_.find(method);
   if (found != subjects_.end()) return found->second;
-  return subjects_.emplace(method, SobbSubject(scene_, method, flags_)).first->second;
+  return subjects_.emplace(method, SobbSubject(scene_, method, flags_, kAllThreads)).first->second;
 }
 
 const EmbreePeer& Workbench::peer(Method method) {
   const auto found = peers_.find(method);
   if (found != peers_.end()) return *found->second;
-  auto peer = std::make_unique<EmbreePeer>(scene_, method, flags_);
+  auto peer = std::make_unique<EmbreePeer>(scene_, method, flags_, kAllThreads);
   return *peers_.emplace(method, std::move(peer)).first->second;
 }
 
@@ -46,22 +51,31 @@ RaySet Workbench::make_rays(RayKind kind) {
   switch (kind) {
     case RayKind::kShadow:
       return shadow_rays(scene_.view(), surface());
-    case RayKind::kDiffuse:
+    case RayKind::kDiffuse1:
       return diffuse_rays(surface());
+    case RayKind::kDiffuse7:
+      // A quarter of the paths, since each is several rays.
+      return path_rays(scene_.triangles(), scene_.info(),
+                       primary_rays(scene_.view(), (flags_.size + 1) / 2), 7,
+                       [this](const RaySet& set) { return closest_hits(set); });
     case RayKind::kRandom:
-      return random_rays(scene_.info(), size_t{flags_.size} * flags_.size);
+      return random_rays(scene_.info(), (size_t{flags_.size} * flags_.size + 3) / 4);
     case RayKind::kPrimary:
       break;
   }
   return primary_rays(scene_.view(), flags_.size);
 }
 
+std::vector<sobb_hit> Workbench::closest_hits(const RaySet& set) {
+  TraceOutput output;
+  output.resize(set);
+  subject(Method::kSobb).trace(set, Call::kArray, workers_, output);
+  return std::move(output.hits);
+}
+
 Surface Workbench::surface() {
   const RaySet& primary = rays(RayKind::kPrimary);
-  TraceOutput output;
-  output.resize(primary);
-  subject(Method::kSobb).trace(primary, Call::kArray, workers_, output);
-  return surface_of(scene_.triangles(), scene_.info(), primary, output.hits);
+  return surface_of(scene_.triangles(), scene_.info(), primary, closest_hits(primary));
 }
 
 const WorkPerRay& Workbench::work(RayKind kind, Method method) {

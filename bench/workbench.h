@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "embree_peer.h"
 #include "flags.h"
@@ -29,11 +30,15 @@ class Workbench {
   EmbreeRays& embree_rays() { return embree_rays_; }
   TraceOutput& output() { return output_; }
 
+  // Hierarchies that are traced are built with all threads: only `build` rows measure the build.
   const SobbSubject& subject(Method method);
   const EmbreePeer& peer(Method method);
   const RaySet& rays(RayKind kind);
   /// Counted once, in a pass of its own.
   const WorkPerRay& work(RayKind kind, Method method);
+  double per_triangle(uint64_t bytes) const {
+    return static_cast<double>(bytes) / static_cast<double>(scene_.info().triangle_count);
+  }
   /// The SOBB hierarchy as a file in a folder of its own that goes with the workbench.
   const std::filesystem::path& saved_file();
 
@@ -44,6 +49,7 @@ class Workbench {
 
  private:
   RaySet make_rays(RayKind kind);
+  std::vector<sobb_hit> closest_hits(const RaySet& set);
   Surface surface();
 
   const Flags& flags_;
