@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: build, info, validate, render, demo, paper.
+"""The command line: build, info, validate, render, demo, paper, peers.
 
 Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage.
 """
@@ -50,6 +50,7 @@ def _parser() -> argparse.ArgumentParser:
         "a .gltf, .glb, .obj, .ply, .stl or .off file, or builtin:NAME[:TRIANGLES]; "
         "with @DEGREES behind it turned about an oblique axis"
     )
+    named_scene_help = f"{scene_help}; or the name of a file in the folder SOBB_SCENES"
 
     command = _add(commands, "build", _build, "build a hierarchy over a scene and save it")
     command.add_argument("scene", metavar="SCENE", help=scene_help)
@@ -98,8 +99,8 @@ def _parser() -> argparse.ArgumentParser:
         "--scenes",
         nargs="+",
         metavar="SCENE",
-        help=f"{scene_help}; or the name of a file in the folder SOBB_SCENES. The default: the "
-        "built-in ones at the paper's sizes, all .glb files of SOBB_SCENES, and four turned",
+        help=f"{named_scene_help}. The default: the built-in ones at the paper's sizes, all .glb "
+        "files of SOBB_SCENES, and four turned",
     )
     command.add_argument("--out", default="out/paper", metavar="DIR", help="where the files go")
     command.add_argument(
@@ -107,6 +108,21 @@ def _parser() -> argparse.ArgumentParser:
     )
     command.add_argument("--cameras", metavar="FILE", help="a JSON file of views")
     command.add_argument("--threads", type=_count, default=0, help="at most; 0 for all")
+
+    command = _add(commands, "peers", _peers, "rays a second beside Embree's, scene after scene")
+    command.add_argument(
+        "--scenes",
+        nargs="+",
+        metavar="SCENE",
+        help=f"{named_scene_help}. The default: the built-in ones at the paper's sizes, all .glb "
+        "files of SOBB_SCENES, and two turned",
+    )
+    command.add_argument("--cameras", metavar="FILE", help="a JSON file of views")
+    command.add_argument("--threads", type=_count, default=1, help="of the tracing; 0 for all")
+    command.add_argument("--isa", choices=("sse4", "avx2"), default="avx2", help="ours and theirs")
+    command.add_argument("--size", type=_at_least_one, default=1024, help="primary rays: NxN")
+    command.add_argument("--repetitions", type=_at_least_one, default=7)
+    command.add_argument("--json", metavar="FILE", help="the figures for machines")
     return parser
 
 
@@ -120,6 +136,13 @@ def _count(text: str) -> int:
     value = int(text)
     if not 0 <= value < 1 << 32:
         raise argparse.ArgumentTypeError(f"{text} is out of range")
+    return value
+
+
+def _at_least_one(text: str) -> int:
+    value = _count(text)
+    if value == 0:
+        raise argparse.ArgumentTypeError("0 is too small")
     return value
 
 
@@ -211,3 +234,17 @@ def _paper(options: argparse.Namespace) -> None:
 
     out = Path(options.out)
     command.run(options.scenes, out, options.quick, options.cameras, options.threads)
+
+
+def _peers(options: argparse.Namespace) -> None:
+    from sobb.peers import command
+
+    command.run(
+        options.scenes,
+        options.cameras,
+        options.threads,
+        options.isa,
+        options.size,
+        options.repetitions,
+        Path(options.json) if options.json else None,
+    )

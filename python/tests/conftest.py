@@ -48,3 +48,14 @@ def cli():
         return subprocess.run(command, check=False, capture_output=True, text=True, timeout=120)
 
     return run
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A folder of scenes, and SOBB_SCENES naming it."""
+    folder = tmp_path / "scenes"
+    folder.mkdir()
+    for name in ("crown.glb", "a b.glb", "other.obj"):
+        (folder / name).touch()
+    monkeypatch.setenv("SOBB_SCENES", str(folder))
+    return folder

@@ -14,7 +14,7 @@ import pytest
 from PIL import Image
 
 from sobb import bench
-from sobb.paper import chart, csv_table, latex, markdown, scenes
+from sobb.paper import chart, csv_table, latex, markdown
 from sobb.paper.table import (
     COLUMNS,
     LAYOUTS,
@@ -221,45 +221,6 @@ def test_chart(count):
     assert picture.width == 1800 and picture.convert("RGBA").getpixel((2, 2)) == (255,) * 4
     svg = chart.picture(shown, "svg")
     assert svg.startswith(b"<?xml") and svg == chart.picture(shown, "svg")
-
-
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A folder of scenes, and SOBB_SCENES naming it."""
-    folder = tmp_path / "scenes"
-    folder.mkdir()
-    for name in ("crown.glb", "a b.glb", "other.obj"):
-        (folder / name).touch()
-    monkeypatch.setenv("SOBB_SCENES", str(folder))
-    return folder
-
-
-def test_scenes_by_name(folder, tmp_path):
-    loose = tmp_path / "model@7.ply"
-    loose.touch()
-    names = ["crown", "crown@30", "other@-12.5", f"{folder}/crown.glb@30", str(loose)]
-    found = scenes.resolve([*names, "builtin:city:5000@30"])
-    assert [(s.argument, s.name) for s in found] == [
-        (f"{folder}/crown.glb", "crown"),
-        (f"{folder}/crown.glb@30", "crown@30"),
-        (f"{folder}/other.obj@-12.5", "other@-12.5"),
-        (f"{folder}/crown.glb@30", "crown@30"),
-        (str(loose), "model@7"),
-        ("builtin:city:5000@30", "city@30"),
-    ]
-
-
-def test_default_scenes(folder, monkeypatch):
-    names = [source.name for source in scenes.default()]
-    assert names == [
-        *("hairball", "wool", "pipes", "city", "foliage"),
-        *("a b", "crown"),
-        *("city@30", "foliage@30", "crown@30", "pipes@30"),
-    ]
-    monkeypatch.delenv("SOBB_SCENES")
-    found = scenes.default()
-    assert len(found) == 9 and all(source.argument.startswith("builtin:") for source in found)
-    assert len(scenes.quick()) == 6
 
 
 PROGRAM = """#!{python}

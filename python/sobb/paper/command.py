@@ -3,16 +3,15 @@
 
 import os
 import re
-import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from sobb import atomic, bench
-from sobb.paper import console, csv_table, latex, markdown, scenes
+from sobb import atomic, bench, scenes, sweep
+from sobb.paper import console, csv_table, latex, markdown
 from sobb.paper.table import LAYOUTS, STRATEGY, Measured, groups
-from sobb.progress import bar
 
 PROGRAM = "sobb_bench_volumes"
+_TURNED = ("city", "foliage", "crown", "sponza-dabrovic")
 
 # Twenty scenes of up to 13 million triangles within an hour on two cores.
 _EFFORT = ["--size=256", "--cell-seconds=1"]
@@ -30,7 +29,9 @@ def run(
     A scene that fails is told on stderr, the others are measured. Raises OSError at the end then,
     and before anything is measured where something is missing.
     """
-    sources = scenes.resolve(names) if names else scenes.quick() if quick else scenes.default()
+    sources = (
+        scenes.resolve(names) if names else scenes.quick() if quick else scenes.default(_TURNED)
+    )
     charts = _charts()
     bench.find_program(PROGRAM)
     (out / "raw").mkdir(parents=True, exist_ok=True)
@@ -38,26 +39,23 @@ def run(
     arguments.append(f"--threads={threads or len(os.sched_getaffinity(0))}")
     arguments += [f"--cameras={cameras}"] if cameras else []
 
-    raws = _raw_names(sources)
+    raws = dict(zip((s.argument for s in sources), _raw_names(sources), strict=True))
     measured: list[Measured] = []
-    failed: list[str] = []
-    for i, source in enumerate(sources):
-        with bar(f"{source.argument} ({i + 1} of {len(sources)})") as progress:
-            progress(i / len(sources))
-            try:
-                scene = f"--scene={source.argument}"
-                report = bench.run(PROGRAM, [scene, *arguments], out / "raw" / raws[i])
-            except OSError as error:
-                print(f"sobb: {source.argument}: {error}", file=sys.stderr)
-                failed.append(source.argument)
-                continue
+
+    def measure(source: scenes.Source) -> bench.Report:
+        scene = f"--scene={source.argument}"
+        return bench.run(PROGRAM, [scene, *arguments], out / "raw" / raws[source.argument])
+
+    def add(source: scenes.Source, report: bench.Report) -> None:
         measured.append(Measured(source.name, report))
         _write(measured, out, charts)
         _show(measured[-1:])
-    if len(measured) > 1:
-        _show(measured)
-    if failed:
-        raise OSError(f"{len(failed)} of {len(sources)} scenes failed: {', '.join(failed)}")
+
+    def means() -> None:
+        if len(measured) > 1:
+            _show(measured)
+
+    sweep.run(sources, measure, add, means)
     print(f"{out}: paper.md, paper.csv, paper.tex, paper.png, paper.svg")
 
 

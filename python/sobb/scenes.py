@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which scenes the table is about, and what they are called in it."""
+"""Which scenes a table is about, and what they are called in it."""
 
 import os
 import re
@@ -24,22 +24,22 @@ _QUICK_SIZE = 20_000
 # Models are drawn along the axes, which flatters the AABB: some are measured turned too. The real
 # ones where they are at hand, else built-in ones in their place.
 _ANGLE = "@30"
-_TURNED = ("city", "foliage")
-_TURNED_FILES = {"crown": "hairball", "sponza-dabrovic": "pipes"}
+_IN_PLACE = {"crown": "hairball", "sponza-dabrovic": "pipes"}
 
 
 @dataclass(frozen=True)
 class Source:
-    """A scene as the benchmark program takes it, and its name in tables."""
+    """A scene as the benchmark programs take it, its name in tables, and how it was asked for."""
 
     argument: str
     name: str
+    asked: str
 
 
 def resolve(names: Sequence[str]) -> list[Source]:
     """Paths, built-in scenes and names of files in the folder SOBB_SCENES, any of them with
-    @DEGREES. Raises OSError naming all that are missing."""
-    found = [(name, _find(name)) for name in names]
+    @DEGREES, one by one or with commas between. Raises OSError naming all that are missing."""
+    found = [(name, _find(name)) for given in names for name in _one_by_one(given)]
     missing = [name for name, source in found if source is None]
     if missing:
         folder = _folder()
@@ -48,14 +48,13 @@ def resolve(names: Sequence[str]) -> list[Source]:
     return [source for _, source in found if source is not None]
 
 
-def default() -> list[Source]:
-    """The built-in scenes at the paper's sizes, the .glb files of SOBB_SCENES, and four turned."""
+def default(turned: Sequence[str]) -> list[Source]:
+    """The built-in scenes at the paper's sizes, the .glb files of SOBB_SCENES, and those named in
+    `turned`."""
     folder = _folder()
     files = sorted(path.stem for path in folder.glob("*.glb")) if folder else []
-    turned = list(_TURNED)
-    for file, instead in _TURNED_FILES.items():
-        turned.append(file if file in files else instead)
-    names = [*_SIZES, *files, *(name + _ANGLE for name in turned)]
+    there = (name if name in files else _IN_PLACE.get(name, name) for name in turned)
+    names = [*_SIZES, *files, *(name + _ANGLE for name in there)]
     return resolve([_at_paper_size(name) for name in names])
 
 
@@ -66,7 +65,7 @@ def quick() -> list[Source]:
 
 
 def _at_paper_size(name: str) -> str:
-    base, turn = _split_turn(name)
+    base, turn = split_turn(name)
     return f"{_BUILTIN}{base}:{_SIZES[base]}{turn}" if base in _SIZES else name
 
 
@@ -79,20 +78,25 @@ def _folder() -> Path | None:
     return Path(name)
 
 
+def _one_by_one(given: str) -> list[str]:
+    return [given] if Path(given).is_file() else given.split(",")
+
+
 def _find(name: str) -> Source | None:
-    base, turn = _split_turn(name)
+    base, turn = split_turn(name)
     if base.startswith(_BUILTIN):
-        return Source(name, base.removeprefix(_BUILTIN).split(":")[0] + turn)
+        return Source(name, base.removeprefix(_BUILTIN).split(":")[0] + turn, name)
     if Path(name).is_file():
-        return Source(name, Path(name).stem)
+        return Source(name, Path(name).stem, name)
     path = Path(base)
     folder = _folder()
     if not path.is_file() and folder is not None and path.name == base:
         files = (folder / (base + ending) for ending in ("", *_ENDINGS))
         path = next(filter(Path.is_file, files), path)
-    return Source(f"{path}{turn}", path.stem + turn) if path.is_file() else None
+    return Source(f"{path}{turn}", path.stem + turn, name) if path.is_file() else None
 
 
-def _split_turn(name: str) -> tuple[str, str]:
+def split_turn(name: str) -> tuple[str, str]:
+    """A scene's name without @DEGREES, and those; nothing where it is not turned."""
     turn = _TURN.search(name)
     return (name, "") if turn is None else (name[: turn.start()], turn[0])
