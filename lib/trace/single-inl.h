@@ -95,36 +95,47 @@ HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>&
   return nearest;
 }
 
+// A ray as traversals read it, whichever way they go.
+template <class Volumes>
+struct PreparedRay {
+  ScaledRay scaled;
+  BlockRay block_ray;
+  typename Volumes::Ray volume_ray;
+  float tmin;
+
+  PreparedRay(const TraceScene& scene, const sobb_ray& ray)
+      : scaled(scene, ray), block_ray(ray, scaled), volume_ray(scene, scaled), tmin(ray.tmin) {}
+
+  float limit(const ClosestHit& best) const { return scale_limit(best.limit, scaled.scale); }
+};
+
+// Traces what is below `key`, a node or a leaf that the ray meets.
 template <class Volumes, Query kQuery, class CounterType>
-HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestHit& best,
-                          CounterType counter) {
-  const ScaledRay scaled(scene, ray);
-  const BlockRay block_ray(ray, scaled);
-  const typename Volumes::Ray volume_ray(scene, scaled);
+HWY_INLINE void traverse_from(const TraceScene& scene, const PreparedRay<Volumes>& ray,
+                              StackKey key, ClosestHit& best, CounterType counter) {
   using Node = typename Volumes::Node;
   constexpr int kWidth = Volumes::kWidth;
   const auto* nodes = static_cast<const Node*>(scene.nodes);
 
   StackKey stack[kMaxDepth * (kWidth - 1) + 1];
   StackKey* top = stack;
-  StackKey key = kRootKey;
-  float limit = scale_limit(best.limit, scaled.scale);
+  float limit = ray.limit(best);
   for (;;) {
     bool met = true;
     while (met && !key_is_leaf(key)) {
       const Node& node = nodes[key_index(key)];
       NodeHits<kWidth> hits;
-      test_node<Volumes>(volume_ray, node, scaled.tmin, limit, hits);
+      test_node<Volumes>(ray.volume_ray, node, ray.scaled.tmin, limit, hits);
       counter.add_node(child_count(node));
       met = hits.mask != 0;
       if (met) key = push_but_nearest(scene, hits, node, top);
     }
     if (met) {
       counter.add_leaf(key_triangles(key));
-      if (test_leaf<kQuery>(block_ray, scene.blocks + key_index(key), key_triangles(key), ray.tmin,
-                            limit, best)) {
+      if (test_leaf<kQuery>(ray.block_ray, scene.blocks + key_index(key), key_triangles(key),
+                            ray.tmin, limit, best)) {
         if (kQuery == Query::kAny) return;
-        limit = scale_limit(best.limit, scaled.scale);
+        limit = ray.limit(best);
       }
     }
     const StackKey last = last_key(limit);
@@ -133,6 +144,13 @@ HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestH
       key = *--top;
     } while (key > last);
   }
+}
+
+template <class Volumes, Query kQuery, class CounterType>
+HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestHit& best,
+                          CounterType counter) {
+  const PreparedRay<Volumes> prepared(scene, ray);
+  traverse_from<Volumes, kQuery>(scene, prepared, kRootKey, best, counter);
 }
 
 }  // namespace
