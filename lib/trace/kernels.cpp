@@ -31,37 +31,60 @@ uint64_t trace(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Resul
   return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
 }
 
-template <Query kQuery, class Result>
-uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_t mask, Result* results) {
-  std::optional<ClosestHit> best[kPacketSize];
-  uint32_t active = 0;
-  for (uint32_t left = mask; left != 0; left &= left - 1) {
-    const auto i = static_cast<uint32_t>(std::countr_zero(left));
-    if (is_valid(rays[i])) {
-      best[i].emplace(rays[i]);
-      active |= 1U << i;
-    } else {
-      store_invalid(results[i]);
+// Rays of a packet: those that are coherent together, in up to a few groups, the others alone.
+template <int kSize, Query kQuery, class Result>
+uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint64_t mask, Result* results) {
+  uint64_t left = mask;
+  const sobb_ray* all = rays;
+  sobb_ray copies[kSize];
+  if (mask != ~uint64_t{0} >> (64 - kSize) && mask != 0) {  // others may not be read
+    for (size_t i = 0; i < kSize; ++i) {
+      copies[i] = rays[(mask >> i & 1) != 0 ? i : std::countr_zero(mask)];
     }
+    all = copies;
   }
-  if (tracer.width == 4) {
-    trace_packet<4, kQuery>(tracer, rays, active, best);
-  } else {
-    trace_packet<8, kQuery>(tracer, rays, active, best);
+  while (left != 0) {
+    const uint64_t traced = tracer.width == 4
+                                ? trace_coherent<4, kQuery, kSize>(tracer, all, left, results)
+                                : trace_coherent<8, kQuery, kSize>(tracer, all, left, results);
+    if (traced == 0) break;
+    left &= ~traced;
   }
-  for (uint32_t left = active; left != 0; left &= left - 1) {
-    const auto i = static_cast<uint32_t>(std::countr_zero(left));
-    store(*best[i], results[i]);
+  uint64_t invalid = 0;
+  while (left != 0) {
+    const int first = std::countr_zero(left);
+    const int count = std::countr_one(left >> first);
+    invalid +=
+        trace<kQuery>(tracer, rays + first, static_cast<uint64_t>(count), results + first, nullptr);
+    left &= left + (uint64_t{1} << first);
   }
-  return static_cast<uint64_t>(std::popcount(mask ^ active));
+  return invalid;
+}
+
+template <Query kQuery, class Result>
+uint64_t trace_16(const Tracer& tracer, const sobb_ray* rays, uint32_t mask, Result* results) {
+  return trace_packet<kPacketSize, kQuery>(tracer, rays, mask, results);
+}
+
+template <Query kQuery, class Result>
+uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                        Result* results) {
+  uint64_t invalid = 0;
+  for (uint64_t first = 0; first < count; first += 64) {
+    const uint64_t size = std::min<uint64_t>(64, count - first);
+    invalid += trace_packet<64, kQuery>(tracer, rays + first, ~uint64_t{0} >> (64 - size),
+                                        results + first);
+  }
+  return invalid;
 }
 
 }  // namespace
 
 const TraceKernels& target_trace_kernels() {
   static constexpr TraceKernels kKernels = {
-      trace<Query::kClosest, sobb_hit>, trace<Query::kAny, uint8_t>,
-      trace_packet<Query::kClosest, sobb_hit>, trace_packet<Query::kAny, uint8_t>};
+      trace<Query::kClosest, sobb_hit>,          trace<Query::kAny, uint8_t>,
+      trace_coherent<Query::kClosest, sobb_hit>, trace_coherent<Query::kAny, uint8_t>,
+      trace_16<Query::kClosest, sobb_hit>,       trace_16<Query::kAny, uint8_t>};
   return kKernels;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A packet of rays through the wide nodes together: rays vary over the lanes, and a lookup in the
-// table is a load. Included once for each Highway target.
+// A packet of coherent rays through the wide nodes together. Included once for each Highway target.
 #if defined(SOBB_TRACE_PACKET_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_PACKET_INL_H
 #undef SOBB_TRACE_PACKET_INL_H
@@ -8,11 +7,12 @@
 #define SOBB_TRACE_PACKET_INL_H
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
-#include <optional>
-
-#include "trace/single-inl.h"
+#include "trace/packet_table-inl.h"
+#include "trace/packet_triangles-inl.h"
+#include "trace/trace_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -21,159 +21,176 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using RayFloats = hn::CappedTag<float, 8>;
-
-// A packet's side of the slab tests: by direction, then by ray.
-struct PacketTable {
-  alignas(64) float reciprocal[kMaxDirections][kPacketSize];
-  alignas(64) float near[kMaxDirections][kPacketSize];
-  alignas(64) float far[kMaxDirections][kPacketSize];
-};
-
-// The rays of a packet. Lanes of rays that are not traced stay inactive: their limit is negative.
-struct PacketRays {
-  alignas(64) float tmin[kPacketSize];
-  alignas(64) float limit[kPacketSize];
-  double scale[kPacketSize];
-  std::optional<BlockRay> block_ray[kPacketSize];
-  PacketTable table;
-
-  void make(const Tracer& tracer, const sobb_ray* rays, uint32_t active,
-            const std::optional<ClosestHit>* best) {
-    alignas(64) float origin[3][kPacketSize] = {};
-    alignas(64) float direction[3][kPacketSize] = {};
-    alignas(64) float error[kPacketSize] = {};
-    for (int i = 0; i < kPacketSize; ++i) {
-      tmin[i] = 0;
-      limit[i] = -1;
-      if ((active >> i & 1) == 0) continue;
-      const ScaledRay scaled(tracer, rays[i]);
-      block_ray[i].emplace(rays[i], scaled);
-      for (int k = 0; k < 3; ++k) {
-        origin[k][i] = scaled.origin[k];
-        direction[k][i] = scaled.direction[k];
-      }
-      error[i] = scaled.error;
-      tmin[i] = scaled.tmin;
-      limit[i] = scale_limit(best[i]->limit, scaled.scale);
-      scale[i] = scaled.scale;
-    }
-    const RayFloats d;
-    const DirectionTable& directions = tracer.directions;
-    for (uint32_t k = 0; k < directions.count; ++k) {
-      for (size_t i = 0; i < kPacketSize; i += hn::Lanes(d)) {
-        const auto c = slab_coefficients(
-            d, hn::Set(d, directions.x[k]), hn::Set(d, directions.y[k]),
-            hn::Set(d, directions.z[k]), hn::Load(d, origin[0] + i), hn::Load(d, origin[1] + i),
-            hn::Load(d, origin[2] + i), hn::Load(d, direction[0] + i),
-            hn::Load(d, direction[1] + i), hn::Load(d, direction[2] + i), hn::Load(d, error + i));
-        hn::Store(c.reciprocal, d, table.reciprocal[k] + i);
-        hn::Store(c.near, d, table.near[k] + i);
-        hn::Store(c.far, d, table.far[k] + i);
-      }
-    }
-  }
-};
-
-// One child against all rays: the mask of those that meet it, and the least near distance of them.
-template <int W>
-HWY_INLINE uint32_t test_child(const PacketRays& rays, const Node<W>& node, uint32_t child,
-                               float& nearest) {
+// The lanes with rays that may meet a child.
+template <int W, int kSize>
+HWY_INLINE uint32_t meet_child(const PacketRays<kSize>& rays, const PacketTable& table,
+                               const Node<W>& node, uint32_t child) {
   const RayFloats d;
   const uint32_t basis = node.basis[child];
   uint32_t met = 0;
-  auto least = hn::Set(d, INFINITY);
-  for (size_t i = 0; i < kPacketSize; i += hn::Lanes(d)) {
-    auto near = hn::Load(d, rays.tmin + i);
-    auto far = hn::Load(d, rays.limit + i);
+  for (size_t lane = 0; lane < kPacketLanes; lane += hn::Lanes(d)) {
+    auto near = hn::Load(d, rays.lane_near + lane);
+    auto far = hn::Load(d, rays.lane_far + lane);
     for (int j = 0; j < 3; ++j) {
       const uint32_t k = basis_direction(basis, j);
-      const auto r = hn::Load(d, rays.table.reciprocal[k] + i);
-      const auto lower = hn::Mul(hn::Set(d, node.slab[j][0][child]), r);
-      const auto upper = hn::Mul(hn::Set(d, node.slab[j][1][child]), r);
-      near = hn::Max(near, hn::Add(hn::Min(lower, upper), hn::Load(d, rays.table.near[k] + i)));
-      far = hn::Min(far, hn::Add(hn::Max(lower, upper), hn::Load(d, rays.table.far[k] + i)));
+      const PacketTable::Entry& e = table.entry[k];
+      const uint32_t falls = table.falls[k];
+      near = hn::Max(
+          near, hn::MulAdd(hn::Set(d, node.slab[j][falls][child]), hn::Load(d, e.near_scale + lane),
+                           hn::Load(d, e.near_offset + lane)));
+      far = hn::Min(far,
+                    hn::MulAdd(hn::Set(d, node.slab[j][1 - falls][child]),
+                               hn::Load(d, e.far_scale + lane), hn::Load(d, e.far_offset + lane)));
     }
-    const auto meets = hn::Le(near, far);
-    least = hn::Min(least, hn::IfThenElse(meets, near, hn::Set(d, INFINITY)));
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, meets, bits);
-    met |= static_cast<uint32_t>(bits[0]) << i;
+    met |= bits_of(d, hn::Le(near, far)) << lane;
   }
-  nearest = hn::GetLane(hn::MinOfLanes(d, least));
   return met;
 }
 
-// The rays whose limit is not before a distance.
-HWY_INLINE uint32_t rays_beyond(const PacketRays& rays, float distance) {
-  const RayFloats d;
-  uint32_t beyond = 0;
-  for (size_t i = 0; i < kPacketSize; i += hn::Lanes(d)) {
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Ge(hn::Load(d, rays.limit + i), hn::Set(d, distance)), bits);
-    beyond |= static_cast<uint32_t>(bits[0]) << i;
-  }
-  return beyond;
-}
-
-// A node to visit: its key, and the rays that meet it.
+// A child to visit: of which node, from which depth on, and the lanes that met the node.
 struct PacketEntry {
-  StackKey key;
-  uint32_t mask;
+  float near;
+  uint32_t node;
+  uint32_t child;
+  uint32_t lanes;
 };
 
-// Pushes the children that a ray meets, furthest first by the packet's nearest ray.
-template <int W>
-HWY_INLINE void push_children(const PacketRays& rays, const Node<W>& node, uint32_t mask,
-                              PacketEntry*& top) {
-  PacketEntry* const base = top;
-  for (uint32_t child = 0; child < child_count(node); ++child) {
-    float nearest;
-    const uint32_t met = test_child(rays, node, child, nearest) & mask;
-    if (met == 0) continue;
-    const uint32_t meta = node.meta[child];
-    const uint32_t high = (std::bit_cast<uint32_t>(nearest) << 1 & ~kKeyMetaMask) |
-                          (meta >> 9 & kLeafBit >> 9) | (meta & kTriangleMask);
-    const PacketEntry entry = {static_cast<StackKey>(high) << 32 | node.reference[child], met};
-    PacketEntry* at = top++;
-    for (; at != base && at[-1].key < entry.key; --at) *at = at[-1];
-    *at = entry;
+// The children that a lane, or the packet as a whole, may meet, and from which depth on.
+template <int W, int kSize>
+HWY_INLINE uint32_t meet_children(const TraceScene& scene, const PacketRays<kSize>& rays,
+                                  PacketTable& table, const Node<W>& node, uint32_t column,
+                                  float (&nearest)[W]) {
+  const hn::CappedTag<float, W> d;
+  const uint32_t count = child_count(node);
+  uint32_t met = 0;
+  if ((node.meta[0] & kSharedBit) != 0) {
+    const uint32_t basis = node.basis[0];
+    table.require(scene, rays, basis);
+    for (size_t first = 0; first < W; first += hn::Lanes(d)) {
+      auto near = hn::Set(d, rays.lane_near[column]);
+      auto far = hn::Set(d, rays.lane_far[column]);
+      for (int j = 0; j < 3; ++j) {
+        const uint32_t k = basis_direction(basis, j);
+        const PacketTable::Entry& e = table.entry[k];
+        const uint32_t falls = table.falls[k];
+        near = hn::Max(
+            near, hn::MulAdd(hn::Load(d, node.slab[j][falls] + first),
+                             hn::Set(d, e.near_scale[column]), hn::Set(d, e.near_offset[column])));
+        far = hn::Min(
+            far, hn::MulAdd(hn::Load(d, node.slab[j][1 - falls] + first),
+                            hn::Set(d, e.far_scale[column]), hn::Set(d, e.far_offset[column])));
+      }
+      uint8_t bits[8] = {};
+      hn::StoreMaskBits(d, hn::Le(near, far), bits);
+      met |= static_cast<uint32_t>(bits[0]) << first;
+      hn::Store(near, d, nearest + first);
+    }
+    return met & ((1U << count) - 1);
   }
+  for (uint32_t child = 0; child < count; ++child) {
+    const uint32_t basis = node.basis[child];
+    table.require(scene, rays, basis);
+    float near = rays.lane_near[column];
+    float far = rays.lane_far[column];
+    for (int j = 0; j < 3; ++j) {
+      const uint32_t k = basis_direction(basis, j);
+      const PacketTable::Entry& e = table.entry[k];
+      const uint32_t falls = table.falls[k];
+      near =
+          std::max(near, node.slab[j][falls][child] * e.near_scale[column] + e.near_offset[column]);
+      far = std::min(far,
+                     node.slab[j][1 - falls][child] * e.far_scale[column] + e.far_offset[column]);
+    }
+    nearest[child] = near;
+    met |= static_cast<uint32_t>(near <= far) << child;
+  }
+  return met;
 }
 
-// The distance of a key, as it was rounded down.
-HWY_INLINE float key_distance(StackKey key) {
-  return std::bit_cast<float>(static_cast<uint32_t>(key >> 32 & ~StackKey{kKeyMetaMask}) >> 1);
+// Asks for a child, all of a node or as much of a leaf, before it is its turn.
+template <int W>
+HWY_INLINE void prefetch_child(const TraceScene& scene, const Node<W>* nodes, const Node<W>& node,
+                               uint32_t child) {
+  const uint32_t index = node.reference[child];
+  const bool leaf = (node.meta[child] & kLeafBit) != 0;
+  const auto* bytes = leaf ? reinterpret_cast<const uint8_t*>(scene.blocks + index)
+                           : reinterpret_cast<const uint8_t*>(nodes + index);
+  for (size_t line = 0; line < sizeof(Node<W>); line += 64) hwy::Prefetch(bytes + line);
 }
 
-template <int W, Query kQuery>
-HWY_INLINE void trace_packet(const Tracer& tracer, const sobb_ray* rays, uint32_t active,
-                             std::optional<ClosestHit>* best) {
-  PacketRays packet;
-  packet.make(tracer, rays, active, best);
-  const auto* nodes = static_cast<const Node<W>*>(tracer.nodes);
-
+template <int W, Query kQuery, int kSize>
+HWY_INLINE void traverse(const TraceScene& scene, PacketRays<kSize>& rays, uint32_t lanes) {
+  PacketTable table;
+  const auto* nodes = static_cast<const Node<W>*>(scene.nodes);
   PacketEntry stack[kMaxDepth * (W - 1) + 2];
   PacketEntry* top = stack;
-  *top++ = {kRootKey, active};
-  while (top != stack) {
-    const PacketEntry entry = *--top;
-    uint32_t mask = entry.mask & rays_beyond(packet, key_distance(entry.key));
-    if (mask == 0) continue;
-    if (!key_is_leaf(entry.key)) {
-      push_children(packet, nodes[key_index(entry.key)], mask, top);
-      continue;
+  uint32_t index = 0;
+  for (;;) {
+    const Node<W>& node = nodes[index];
+    const bool one_lane = (lanes & (lanes - 1)) == 0;
+    const uint32_t column = one_lane ? static_cast<uint32_t>(std::countr_zero(lanes)) : kAllLanes;
+    alignas(64) float nearest[W];
+    PacketEntry* const base = top;
+    for (uint32_t met = meet_children(scene, rays, table, node, column, nearest); met != 0;
+         met &= met - 1) {
+      const auto child = static_cast<uint32_t>(std::countr_zero(met));
+      const float near = nearest[child];
+      prefetch_child(scene, nodes, node, child);
+      PacketEntry* at = top++;
+      for (; at != base && at[-1].near < near; --at) *at = at[-1];
+      *at = {near, index, child, lanes};
     }
-    for (; mask != 0; mask &= mask - 1) {
-      const auto i = static_cast<uint32_t>(std::countr_zero(mask));
-      if (test_leaf<kQuery>(*packet.block_ray[i], tracer.blocks + key_index(entry.key),
-                            key_triangles(entry.key), rays[i].tmin, packet.limit[i], *best[i])) {
-        // An occluded ray is done: no distance is before a negative limit.
-        packet.limit[i] =
-            kQuery == Query::kAny ? -1.0F : scale_limit(best[i]->limit, packet.scale[i]);
-      }
+    for (;;) {
+      if (top == stack) return;
+      const PacketEntry entry = *--top;
+      if (entry.near > rays.lane_far[kAllLanes]) continue;
+      const Node<W>& parent = nodes[entry.node];
+      lanes = entry.lanes & meet_child(rays, table, parent, entry.child);
+      if (lanes == 0) continue;
+      const uint32_t meta = parent.meta[entry.child];
+      index = parent.reference[entry.child];
+      if ((meta & kLeafBit) == 0) break;
+      test_leaf<kQuery>(rays, scene.blocks + index, meta & kTriangleMask, lanes);
     }
   }
+}
+
+template <int kSize>
+HWY_INLINE void store(const PacketRays<kSize>& rays, size_t i, sobb_hit& hit) {
+  hit = rays.primitive[i] == SOBB_MISS
+            ? ClosestHit::missed(SOBB_MISS)
+            : sobb_hit{rays.limit[i], rays.u[i], rays.v[i], rays.primitive[i], 0, SOBB_MISS};
+}
+template <int kSize>
+HWY_INLINE void store(const PacketRays<kSize>& rays, size_t i, uint8_t& occluded) {
+  occluded = rays.primitive[i] == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
+}
+
+// Traces those of the rays that are coherent with the first of them, and returns which they are:
+// none if they are too few or too wide to gain.
+template <int W, Query kQuery, int kSize, class Result>
+HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* rays, uint64_t mask,
+                                     Result* results) {
+  const sobb_ray& first = rays[std::countr_zero(mask)];
+  if (!is_valid(first)) return 0;
+  PacketRays<kSize> packet(scene, first);
+  if (!(packet.centred.error < INFINITY)) return 0;
+  const uint64_t taken = packet.take(rays, mask);
+  constexpr int kFewest = kSize / 8;
+  constexpr float kWidest = 0.25F;
+  if (std::popcount(taken) < kFewest) return 0;
+  if (packet.spread[0] + packet.spread[1] > kWidest) return 0;
+  uint32_t lanes = 0;
+  for (int lane = 0; lane < kPacketLanes; ++lane) {
+    constexpr int kRun = PacketRays<kSize>::kRun;
+    lanes |= static_cast<uint32_t>((taken >> (lane * kRun) & ((1U << kRun) - 1)) != 0) << lane;
+  }
+  traverse<W, kQuery>(scene, packet, lanes);
+  for (uint64_t left = taken; left != 0; left &= left - 1) {
+    const auto i = static_cast<size_t>(std::countr_zero(left));
+    store(packet, i, results[i]);
+  }
+  return taken;
 }
 
 }  // namespace

@@ -36,6 +36,11 @@ struct TraceKernels {
                         sobb_count* counts);
   uint64_t (*occluded)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
                        uint8_t* occluded, sobb_count* counts);
+  // An array of rays of which neighbours take much the same way.
+  uint64_t (*intersect_coherent)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                                 sobb_hit* hits);
+  uint64_t (*occluded_coherent)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                                uint8_t* occluded);
   // A packet: bit i of `mask`, below kPacketSize, is for ray i.
   uint64_t (*intersect_packet)(const Tracer& tracer, const sobb_ray* rays, uint32_t mask,
                                sobb_hit* hits);

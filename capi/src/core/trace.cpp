@@ -26,22 +26,11 @@ sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   return known;
 }
 
-// An array in packets of consecutive rays.
-template <class TracePacket>
-uint64_t trace_packets(uint64_t count, const TracePacket& trace_packet) {
-  uint64_t invalid = 0;
-  for (uint64_t first = 0; first < count; first += kPacketSize) {
-    const uint64_t size = std::min<uint64_t>(kPacketSize, count - first);
-    invalid += trace_packet(first, (1U << size) - 1);
-  }
-  return invalid;
-}
-
 // Checks the arguments of an array call, shares the array among threads, adds up the invalid rays.
-template <class Result, class Trace, class TracePacket>
+template <class Result, class Trace, class TraceCoherent>
 void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
                  Result* results, const sobb_trace_options* options,
-                 Trace(sobb::TraceKernels::*trace), TracePacket(sobb::TraceKernels::*packet)) {
+                 Trace(sobb::TraceKernels::*trace), TraceCoherent(sobb::TraceKernels::*coherent)) {
   require(hierarchy, "hierarchy");
   const sobb_trace_options known = read_trace_options(options);
   const sobb::TraceKernels& kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
@@ -54,10 +43,7 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
   std::atomic<uint64_t> invalid{0};
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     if (packets) {
-      invalid += trace_packets(end - begin, [&](uint64_t first, uint32_t mask) {
-        return (kernels.*packet)(hierarchy->tracer, rays + begin + first, mask,
-                                 results + begin + first);
-      });
+      invalid += (kernels.*coherent)(hierarchy->tracer, rays + begin, end - begin, results + begin);
     } else {
       sobb_count* counts = known.counts == nullptr ? nullptr : known.counts + begin;
       invalid +=
@@ -85,7 +71,7 @@ sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays
                            sobb_hit* hits, const sobb_trace_options* options) {
   return guard([&] {
     trace_array(hierarchy, rays, count, hits, options, &sobb::TraceKernels::intersect,
-                &sobb::TraceKernels::intersect_packet);
+                &sobb::TraceKernels::intersect_coherent);
   });
 }
 
@@ -93,7 +79,7 @@ sobb_status sobb_occluded(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
                           uint8_t* occluded, const sobb_trace_options* options) {
   return guard([&] {
     trace_array(hierarchy, rays, count, occluded, options, &sobb::TraceKernels::occluded,
-                &sobb::TraceKernels::occluded_packet);
+                &sobb::TraceKernels::occluded_coherent);
   });
 }
 

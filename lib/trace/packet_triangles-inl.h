@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// The triangles of a leaf against a packet: a conservative float filter with rays in the lanes,
+// then the deciding test in double, four rays at a time. Included once for each Highway target.
+//
+// Vertices are projected along the packet's central ray. For a ray whose slopes differ by
+// (a, b) from its, the edge function of vertices i, j is linear in them, for the origin is shared:
+//   x_i y_j - y_i x_j + a (y_i z_j - z_i y_j) + b (z_i x_j - x_i z_j)
+// so a ray costs two multiply-adds an edge. With M at least the distance from the origin to any
+// vertex, u = 2^-24, m the largest projected coordinate, and a, b at most r:
+//   x, y err by at most h = 4 u M,
+//   the constant by 4 h m + 2 h^2 + 3 u m^2, the factors of a and b by 2 h M + 5 u m M,
+//   the sum's rounding is 4 u m^2 + 12 u r m M, the deciding test's own 8 u M (m + r M):
+// together less than u M (96 m + 32 r M + 64 u M).
+#if defined(SOBB_TRACE_PACKET_TRIANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_PACKET_TRIANGLES_INL_H
+#undef SOBB_TRACE_PACKET_TRIANGLES_INL_H
+#else
+#define SOBB_TRACE_PACKET_TRIANGLES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include "format/layout.h"
+#include "trace/packet_rays-inl.h"
+#include "trace/single-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Half a vector of rays, as their deciding test takes them.
+using HalfFloats = hn::Half<RayFloats>;
+using HalfDoubles = hn::Rebind<double, HalfFloats>;
+
+// Four triangles before a packet.
+struct PacketBlock {
+  // By edge, then triangle: the edge function's constant and factors.
+  alignas(16) float constant[3][4];
+  alignas(16) float along_x[3][4];
+  alignas(16) float along_y[3][4];
+  alignas(16) float error[4];
+  alignas(16) float near[4];  // depths of the vertices, widened
+  alignas(16) float far[4];
+
+  // Returns the triangles that a ray of the packet may hit.
+  template <int kSize>
+  HWY_INLINE uint32_t make(const PacketRays<kSize>& rays, const TriangleBlock& block) {
+    const hn::CappedTag<float, 4> d;
+    using V = hn::Vec<decltype(d)>;
+    const int* axis = rays.frame.axis;
+    const V ox = hn::Set(d, static_cast<float>(rays.frame.origin[0]));
+    const V oy = hn::Set(d, static_cast<float>(rays.frame.origin[1]));
+    const V oz = hn::Set(d, static_cast<float>(rays.frame.origin[2]));
+    const V cx = hn::Set(d, rays.centre[0]);
+    const V cy = hn::Set(d, rays.centre[1]);
+    const V sign = hn::Set(d, rays.sign);
+    V x[3];
+    V y[3];
+    V z[3];
+    for (int i = 0; i < 3; ++i) {
+      z[i] = hn::Mul(hn::Sub(hn::Load(d, block.vertex[i][axis[2]]), oz), sign);
+      x[i] = hn::NegMulAdd(cx, z[i], hn::Sub(hn::Load(d, block.vertex[i][axis[0]]), ox));
+      y[i] = hn::NegMulAdd(cy, z[i], hn::Sub(hn::Load(d, block.vertex[i][axis[1]]), oy));
+    }
+    const V rx = hn::Set(d, rays.spread[0]);
+    const V ry = hn::Set(d, rays.spread[1]);
+    V least_high = hn::Set(d, INFINITY);
+    V most_low = hn::Neg(least_high);
+    for (int edge = 0; edge < 3; ++edge) {
+      const int i = edge == 0 ? 2 : edge - 1;  // (2, 1), (0, 2), (1, 0)
+      const int j = 2 - edge == 2 ? 1 : edge == 1 ? 2 : 0;
+      const V c = hn::MulSub(x[i], y[j], hn::Mul(y[i], x[j]));
+      const V a = hn::MulSub(y[i], z[j], hn::Mul(z[i], y[j]));
+      const V b = hn::MulSub(z[i], x[j], hn::Mul(x[i], z[j]));
+      hn::Store(c, d, constant[edge]);
+      hn::Store(a, d, along_x[edge]);
+      hn::Store(b, d, along_y[edge]);
+      const V range = hn::MulAdd(hn::Abs(a), rx, hn::Mul(hn::Abs(b), ry));
+      least_high = hn::Min(least_high, hn::Add(c, range));
+      most_low = hn::Max(most_low, hn::Sub(c, range));
+    }
+    const V largest_x = hn::Max(hn::Max(hn::Abs(x[0]), hn::Abs(x[1])), hn::Abs(x[2]));
+    const V largest_y = hn::Max(hn::Max(hn::Abs(y[0]), hn::Abs(y[1])), hn::Abs(y[2]));
+    const float u_reach = 0x1p-24F * rays.centred.reach;
+    const float r = std::max(rays.spread[0], rays.spread[1]);
+    const V e = hn::MulAdd(hn::Set(d, 96 * u_reach), hn::Max(largest_x, largest_y),
+                           hn::Set(d, u_reach * (32 * r * rays.centred.reach + 64 * u_reach)));
+    hn::Store(e, d, error);
+    const V slack = hn::Set(d, 8 * u_reach);
+    const V front = hn::Sub(hn::Min(hn::Min(z[0], z[1]), z[2]), slack);
+    const V back = hn::Add(hn::Max(hn::Max(z[0], z[1]), z[2]), slack);
+    hn::Store(front, d, near);
+    hn::Store(back, d, far);
+    const auto outside = hn::And(hn::Lt(least_high, hn::Neg(e)), hn::Gt(most_low, e));
+    const auto beyond = hn::Gt(front, hn::Set(d, rays.lane_far[kAllLanes]));
+    const auto before = hn::Lt(back, hn::Set(d, rays.lane_near[kAllLanes]));
+    return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & 0xF;
+  }
+
+  // Which of as many rays as a vector has may hit a triangle.
+  template <int kSize>
+  HWY_INLINE uint32_t filter(const PacketRays<kSize>& rays, uint32_t triangle, size_t first) const {
+    const RayFloats d;
+    using V = hn::Vec<RayFloats>;
+    const V a = hn::Load(d, rays.slope[0] + first);
+    const V b = hn::Load(d, rays.slope[1] + first);
+    V w[3];
+    for (int edge = 0; edge < 3; ++edge) {
+      w[edge] = hn::MulAdd(
+          b, hn::Set(d, along_y[edge][triangle]),
+          hn::MulAdd(a, hn::Set(d, along_x[edge][triangle]), hn::Set(d, constant[edge][triangle])));
+    }
+    const V e = hn::Set(d, error[triangle]);
+    const auto outside = hn::And(hn::Lt(hn::Min(hn::Min(w[0], w[1]), w[2]), hn::Neg(e)),
+                                 hn::Gt(hn::Max(hn::Max(w[0], w[1]), w[2]), e));
+    const auto beyond = hn::Gt(hn::Set(d, near[triangle]), hn::Load(d, rays.far + first));
+    const auto before = hn::Lt(hn::Set(d, far[triangle]), hn::Load(d, rays.near + first));
+    const uint32_t all = (1U << hn::Lanes(d)) - 1;
+    return ~bits_of(d, hn::Or(outside, hn::Or(beyond, before))) & all;
+  }
+};
+
+// intersect_triangle() for rays from `first` on, as many as a vector of doubles has, with the same
+// operations in the same order. Where it finds no hit t is negative.
+struct PacketHits {
+  hn::Vec<HalfFloats> t, u, v;
+};
+template <int kSize>
+HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&away)[3][3],
+                                size_t first) {
+  const HalfDoubles d;
+  const HalfFloats df;
+  using V = hn::Vec<HalfDoubles>;
+  const V sx = hn::Load(d, rays.shear[0] + first);
+  const V sy = hn::Load(d, rays.shear[1] + first);
+  V px[3];
+  V py[3];
+  V pz[3];
+  for (int i = 0; i < 3; ++i) {
+    pz[i] = hn::Set(d, away[2][i]);
+    px[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Set(d, away[0][i]), hn::Mul(sx, pz[i]))));
+    py[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Set(d, away[1][i]), hn::Mul(sy, pz[i]))));
+  }
+  const V w0 = hn::Sub(hn::Mul(px[2], py[1]), hn::Mul(py[2], px[1]));
+  const V w1 = hn::Sub(hn::Mul(px[0], py[2]), hn::Mul(py[0], px[2]));
+  const V w2 = hn::Sub(hn::Mul(px[1], py[0]), hn::Mul(py[1], px[0]));
+  const V zero = hn::Zero(d);
+  const V sum = hn::Add(hn::Add(w0, w1), w2);
+  const V t = hn::Div(hn::Add(hn::Add(hn::Mul(w0, pz[0]), hn::Mul(w1, pz[1])), hn::Mul(w2, pz[2])),
+                      hn::Mul(sum, hn::Load(d, rays.direction_z + first)));
+  const auto inside = hn::Or(hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero),
+                             hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
+  const auto hit = hn::And(hn::And(inside, hn::Ne(sum, zero)), hn::Ge(t, zero));
+  return {hn::Add(hn::DemoteTo(df, hn::IfThenElse(hit, t, hn::Set(d, -1.0))), hn::Zero(df)),
+          hn::DemoteTo(df, hn::Div(w1, sum)), hn::DemoteTo(df, hn::Div(w2, sum))};
+}
+
+// Offers a triangle to rays from `first` on, as ClosestHit::offer() does. Returns whether one took
+// it.
+template <Query kQuery, int kSize>
+HWY_INLINE bool offer(PacketRays<kSize>& rays, const TriangleBlock& block, uint32_t triangle,
+                      size_t first, uint32_t candidates) {
+  double away[3][3];
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      away[k][i] = block.vertex[i][rays.frame.axis[k]][triangle] - rays.frame.origin[k];
+    }
+  }
+  const HalfFloats half;
+  constexpr size_t kHalf = hn::MaxLanes(HalfFloats());
+  const auto none = hn::Set(half, -1.0F);
+  PacketHits low = {none, none, none};
+  PacketHits high = low;
+  if ((candidates & ((1U << kHalf) - 1)) != 0) low = intersect(rays, away, first);
+  if (candidates >> kHalf != 0) high = intersect(rays, away, first + kHalf);
+
+  const RayFloats d;
+  const RayWords dw;
+  const auto t = hn::Combine(d, high.t, low.t);
+  const auto limit = hn::Load(d, rays.limit + first);
+  const auto best = hn::Load(dw, rays.primitive + first);
+  const auto index = hn::Set(dw, block.primitive[triangle]);
+  const auto before =
+      hn::Or(hn::Lt(t, limit), hn::And(hn::Eq(t, limit), hn::RebindMask(d, hn::Lt(index, best))));
+  const auto taken = hn::And(before, hn::Ge(t, hn::Load(d, rays.tmin + first)));
+  if (hn::AllFalse(d, taken)) return false;
+  const auto store = [&](auto value, float* at) HWY_ATTR {
+    hn::Store(hn::IfThenElse(taken, value, hn::Load(d, at)), d, at);
+  };
+  store(hn::Combine(d, high.u, low.u), rays.u + first);
+  store(hn::Combine(d, high.v, low.v), rays.v + first);
+  hn::Store(hn::IfThenElse(hn::RebindMask(dw, taken), index, best), dw, rays.primitive + first);
+  if (kQuery == Query::kAny) {
+    const auto done = hn::Set(d, -1.0F);
+    store(done, rays.limit + first);
+    store(done, rays.far + first);
+  } else {
+    store(t, rays.limit + first);
+    store(depth_beyond(d, t, hn::Load(d, rays.depth_of_one + first)), rays.far + first);
+  }
+  return true;
+}
+
+// A leaf before the rays of some lanes.
+template <Query kQuery, int kSize>
+HWY_INLINE void test_leaf(PacketRays<kSize>& rays, const TriangleBlock* block, uint32_t triangles,
+                          uint32_t lanes) {
+  constexpr size_t kStep = hn::MaxLanes(RayFloats());
+  constexpr size_t kRun = PacketRays<kSize>::kRun;
+  uint32_t changed = 0;
+  for (uint32_t left = 0; left < triangles; left += 4, ++block) {
+    PacketBlock prepared;
+    uint32_t met = prepared.make(rays, *block);
+    met &= triangles - left >= 4 ? 0xF : (1U << (triangles - left)) - 1;
+    for (; met != 0; met &= met - 1) {
+      const auto triangle = static_cast<uint32_t>(std::countr_zero(met));
+      for (size_t first = 0; first < kSize; first += kStep) {
+        // The lanes that these rays belong to.
+        constexpr size_t kShare = kStep / kRun == 0 ? 1 : kStep / kRun;
+        if ((lanes >> (first / kRun) & ((1U << kShare) - 1)) == 0) continue;
+        const uint32_t candidates = prepared.filter(rays, triangle, first);
+        if (candidates == 0) continue;
+        changed |= static_cast<uint32_t>(offer<kQuery>(rays, *block, triangle, first, candidates))
+                   << (first / kStep);
+      }
+    }
+  }
+  if (changed != 0) rays.update_lanes(changed);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif
