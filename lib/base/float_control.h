@@ -11,13 +11,18 @@ namespace sobb {
 class FloatControl {
  public:
   FloatControl() : found_(_mm_getcsr()) {
-    if (found_ != kDefault) _mm_setcsr(kDefault);
+    if (differs()) _mm_setcsr(kDefault);
   }
-  ~FloatControl() { _mm_setcsr(found_); }
+  ~FloatControl() {
+    if (differs()) _mm_setcsr(found_);
+  }
   FloatControl(const FloatControl&) = delete;
   FloatControl& operator=(const FloatControl&) = delete;
 
  private:
+  bool differs() const { return (found_ & ~kFlags) != kDefault; }
+
+  static constexpr unsigned kFlags = 0x3F;  // what has happened, not what is to
   static constexpr unsigned kDefault = 0x1F80;
   unsigned found_;
 };

@@ -30,10 +30,15 @@ struct FileVolumes {
   template <class V = hn::Vec<ChildFloats<W>>>
   static HWY_INLINE void clip(const RayTable& table, const Node& node, size_t first, V& near,
                               V& far) {
-    if (kAxes || (node.meta[0] & kSharedBit) != 0) {
-      const uint32_t basis = kAxes ? kAxesBasis : node.basis[0];
+    const bool shared = (node.meta[0] & kSharedBit) != 0;
+    if (kAxes || (shared && node.basis[0] == kAxesBasis)) {
+      // Where in the table is known: what is there need not wait for the node.
+      for (uint32_t k = 0; k < 3; ++k) clip_shared<W>(table, node.slab[k], k, first, near, far);
+      return;
+    }
+    if (shared) {
       for (int j = 0; j < 3; ++j) {
-        clip_shared<W>(table, node.slab[j], basis_direction(basis, j), first, near, far);
+        clip_shared<W>(table, node.slab[j], basis_direction(node.basis[0], j), first, near, far);
       }
       return;
     }

@@ -16,6 +16,7 @@
 
 #include <hwy/highway.h>
 
+#include "trace/mask_bits-inl.h"
 #include "trace/slab_clip-inl.h"
 #include "trace/stack_key.h"
 
@@ -49,9 +50,7 @@ HWY_INLINE void test_node(const typename Volumes::Ray& ray, const typename Volum
     auto near = hn::Set(d, tmin);
     auto far = hn::Set(d, limit);
     Volumes::clip(ray, node, first, near, far);
-    uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Le(near, far), bits);
-    hits.mask |= static_cast<uint32_t>(bits[0]) << first;
+    hits.mask |= mask_bits(d, hn::Le(near, far)) << first;
     // The upper half of a StackKey: distance, leaf bit, triangles.
     const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
     const auto leaf = hn::And(hn::ShiftRight<9>(meta), hn::Set(du, kLeafBit >> 9));

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray as the slab tests want it: relative to the scene's centre, its direction scaled so that the
-// largest component lies in [1, 2), t scaled with it.
+// A ray as the slab tests want it: relative to the scene's centre, and a direction that is very
+// short or long scaled so that the largest component lies in [1, 2), t scaled with it.
 #pragma once
 
+#include <hwy/base.h>
+
+#include <algorithm>
 #include <bit>
 #include <cfloat>
 #include <cmath>
@@ -14,47 +17,52 @@
 namespace sobb {
 
 // A hit's t is rounded to float before it is scaled: where it is denormal, by up to this much.
-inline constexpr double kSmallestFloat = 0x1p-149;
+inline constexpr float kSmallestFloat = 0x1p-149F;
 
 // The scaled t up to which volumes matter to a ray whose best hit so far is at t. Near the largest
 // floats it is infinite, which culls nothing.
-inline float scale_limit(float t, double scale) {
-  return static_cast<float>((t + kSmallestFloat) * scale);
-}
+inline float scale_limit(float t, float scale) { return (t + kSmallestFloat) * scale; }
 
 struct ScaledRay {
   float origin[3];
   float direction[3];
-  float tmin;    // in scaled units
-  double scale;  // scaled t = t * scale, a power of two
-  float reach;   // at least the distance from the origin to any vertex
-  float error;   // e, how far slabs are widened for this ray (ray_table-inl.h)
+  float tmin;   // in scaled units
+  float scale;  // scaled t = t * scale, a power of two
+  float reach;  // at least the distance from the origin to any vertex
+  float error;  // e, how far slabs are widened for this ray (ray_table-inl.h)
 
-  ScaledRay(const TraceScene& scene, const sobb_ray& ray) {
-    double largest = 0;
-    double square = 0;
+  HWY_INLINE ScaledRay(const TraceScene& scene, const sobb_ray& ray) : scale(1) {
+    float largest = 0;
+    float distance = 0;  // the sum of magnitudes is at least the length
     for (int k = 0; k < 3; ++k) {
-      largest = std::fmax(largest, std::fabs(static_cast<double>(ray.direction[k])));
+      direction[k] = ray.direction[k];
+      largest = std::max(largest, std::fabs(ray.direction[k]));
       origin[k] = ray.origin[k] - scene.centre[k];
-      square += static_cast<double>(origin[k]) * origin[k];
+      distance += std::fabs(origin[k]);
     }
-    // A float is a normal double: its exponent is in the bits.
-    const uint64_t exponent = std::bit_cast<uint64_t>(largest) >> 52;
-    scale = std::bit_cast<double>(exponent << 52);
-    const auto inverse = std::bit_cast<double>((2046 - exponent) << 52);
-    for (int k = 0; k < 3; ++k) {
-      direction[k] = static_cast<float>(ray.direction[k] * inverse);
-    }
-    tmin = static_cast<float>(std::fmax(ray.tmin - kSmallestFloat, 0.0) * scale);
-    const auto distance = static_cast<float>(std::sqrt(square));
+    tmin = std::max(ray.tmin - kSmallestFloat, 0.0F);
     reach = distance + scene.radius;
     error = 16 * 0x1p-24F * (distance + reach) + 0x1p-100F;
-    if (!(distance <= kFurthest)) forgo_culling();
+    if (!(largest >= 1 / kLongest && largest <= kLongest)) [[unlikely]]
+      rescale(largest);
+    if (!(distance <= kFurthest)) [[unlikely]]
+      forgo_culling();
   }
 
  private:
+  // Between the inverse of it and it directions are left as they are.
+  static constexpr float kLongest = 0x1p20F;
   // Beyond this the products of the slab test could overflow.
   static constexpr float kFurthest = 0x1p62F;
+
+  void rescale(float largest) {
+    // A float is a normal double: its exponent is in the bits.
+    const uint64_t exponent = std::bit_cast<uint64_t>(static_cast<double>(largest)) >> 52;
+    const auto inverse = std::bit_cast<double>((2046 - exponent) << 52);
+    for (float& d : direction) d = static_cast<float>(d * inverse);
+    scale = static_cast<float>(std::bit_cast<double>(exponent << 52));
+    tmin *= scale;
+  }
 
   // An infinite error makes every slab interval infinite: the ray meets all triangles.
   void forgo_culling() {

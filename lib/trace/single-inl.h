@@ -11,10 +11,11 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "trace/node_test-inl.h"
-#include "trace/triangle_filter-inl.h"
+#include "trace/triangle_block-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -22,9 +23,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// What a query is: the closest hit, or whether there is any.
-enum class Query { kClosest, kAny };
 
 // Counts a ray's work, or does nothing at no cost.
 struct NoCounter {
@@ -46,16 +44,11 @@ struct Counter {
 // The triangles of a leaf. Returns whether `best` changed.
 template <Query kQuery>
 HWY_INLINE bool test_leaf(const BlockRay& ray, const TriangleBlock* block, uint32_t triangles,
-                          float tmin, float scaled_limit, ClosestHit& best) {
+                          ClosestHit& best) {
   bool found = false;
   for (uint32_t first = 0; first < triangles; first += 4, ++block) {
-    for (uint32_t lanes = ray.filter(*block, scaled_limit); lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
-      TriangleHit hit;
-      if (!ray.test(*block, lane, hit)) continue;
-      found |= best.offer(hit, tmin, block->primitive[lane]);
-      if (kQuery == Query::kAny && found) return true;
-    }
+    found |= ray.test<kQuery>(*block, best);
+    if (kQuery == Query::kAny && found) return true;
   }
   return found;
 }
@@ -70,23 +63,41 @@ HWY_INLINE void prefetch(const TraceScene& scene, StackKey key) {
   for (size_t line = 0; line < sizeof(Node); line += 64) hwy::Prefetch(bytes + line);
 }
 
-// Pushes the children met but the nearest, furthest first, and returns the nearest's key.
+// Pushes the children met but the nearest, furthest first, and returns the nearest's key. One or
+// two are the rule and have paths of their own.
 template <int W, class Node>
 HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>& hits,
                                      const Node& node, StackKey*& top) {
   uint32_t mask = hits.mask;
-  const auto next = [&]() HWY_ATTR {
+  const auto next_child = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
-    const StackKey key = hits.key(node, child);
+    return child;
+  };
+  const auto next_key = [&]() HWY_ATTR {
+    const StackKey key = hits.key(node, next_child());
     prefetch<Node>(scene, key);
     return key;
   };
-  StackKey nearest = next();
-  if (mask == 0) return nearest;
+  if ((mask & (mask - 1)) == 0) {
+    const uint32_t child = next_child();
+    return make_key(0, node.meta[child], node.reference[child]);
+  }
+  const StackKey first = next_key();
+  const StackKey second = next_key();
+  if (mask == 0) {
+    if (second < first) {
+      *top++ = first;
+      return second;
+    }
+    *top++ = second;
+    return first;
+  }
+  StackKey nearest = std::min(first, second);
   StackKey* const base = top;
+  *top++ = std::max(first, second);
   do {
-    StackKey key = next();
+    StackKey key = next_key();
     if (key < nearest) std::swap(key, nearest);
     StackKey* at = top++;
     for (; at != base && at[-1] < key; --at) *at = at[-1];
@@ -101,10 +112,9 @@ struct PreparedRay {
   ScaledRay scaled;
   BlockRay block_ray;
   typename Volumes::Ray volume_ray;
-  float tmin;
 
-  PreparedRay(const TraceScene& scene, const sobb_ray& ray)
-      : scaled(scene, ray), block_ray(ray, scaled), volume_ray(scene, scaled), tmin(ray.tmin) {}
+  HWY_INLINE PreparedRay(const TraceScene& scene, const sobb_ray& ray)
+      : scaled(scene, ray), block_ray(ray), volume_ray(scene, scaled) {}
 
   float limit(const ClosestHit& best) const { return scale_limit(best.limit, scaled.scale); }
 };
@@ -133,7 +143,7 @@ HWY_INLINE void traverse_from(const TraceScene& scene, const PreparedRay<Volumes
     if (met) {
       counter.add_leaf(key_triangles(key));
       if (test_leaf<kQuery>(ray.block_ray, scene.blocks + key_index(key), key_triangles(key),
-                            ray.tmin, limit, best)) {
+                            best)) {
         if (kQuery == Query::kAny) return;
         limit = ray.limit(best);
       }

@@ -22,6 +22,13 @@ constexpr bool key_is_leaf(StackKey key) { return (key >> 38 & 1) != 0; }
 constexpr uint32_t key_triangles(StackKey key) { return key >> 32 & kTriangleMask; }
 constexpr uint32_t key_index(StackKey key) { return static_cast<uint32_t>(key); }
 
+// Of a child at a distance, by its words in the node.
+inline StackKey make_key(float distance, uint32_t meta, uint32_t reference) {
+  const uint32_t high = (std::bit_cast<uint32_t>(distance) << 1 & ~kKeyMetaMask) |
+                        (meta >> 9 & kLeafBit >> 9) | (meta & kTriangleMask);
+  return static_cast<StackKey>(high) << 32 | reference;
+}
+
 // The largest key whose node a ray with this limit must still visit.
 inline StackKey last_key(float limit) {
   const uint32_t distance = std::bit_cast<uint32_t>(limit) << 1 | kKeyMetaMask;

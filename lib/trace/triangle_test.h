@@ -12,6 +12,8 @@
 //     that bound the triangle by more than their offsets allow (ray_table-inl.h).
 #pragma once
 
+#include <hwy/base.h>
+
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -24,13 +26,12 @@ namespace sobb {
 // Whether a ray is one that sobb.h promises a result for.
 inline bool is_valid(const sobb_ray& ray) {
   float largest = 0;
+  float nothing = 0;  // times what is not finite: not a number
   for (int k = 0; k < 3; ++k) {
-    if (!(std::fabs(ray.origin[k]) <= FLT_MAX) || !(std::fabs(ray.direction[k]) <= FLT_MAX)) {
-      return false;
-    }
+    nothing += 0 * ray.origin[k] + 0 * ray.direction[k];
     largest = std::max(largest, std::fabs(ray.direction[k]));
   }
-  return largest > 0 && ray.tmin >= 0 && ray.tmax == ray.tmax;
+  return nothing == 0 && largest > 0 && ray.tmin >= 0 && ray.tmax == ray.tmax;
 }
 
 // A ray as the test wants it: axes permuted so that the direction is largest along z.
@@ -41,13 +42,16 @@ struct TriangleRay {
   double shear_y;
   double direction_z;
 
-  explicit TriangleRay(const sobb_ray& ray) {
+  HWY_INLINE explicit TriangleRay(const sobb_ray& ray) {
     const float x = std::fabs(ray.direction[0]);
     const float y = std::fabs(ray.direction[1]);
     const float z = std::fabs(ray.direction[2]);
-    axis[2] = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-    axis[0] = axis[2] == 2 ? 0 : axis[2] + 1;
-    axis[1] = axis[0] == 2 ? 0 : axis[0] + 1;
+    // Looked up, since rays' directions are not to be predicted.
+    static constexpr int kLargest[8] = {2, 2, 2, 0, 1, 2, 1, 0};
+    static constexpr int kNext[3] = {1, 2, 0};
+    axis[2] = kLargest[(x >= y ? 1 : 0) | (x >= z ? 2 : 0) | (y >= z ? 4 : 0)];
+    axis[0] = kNext[axis[2]];
+    axis[1] = kNext[axis[0]];
     for (int k = 0; k < 3; ++k) origin[k] = ray.origin[axis[k]];
     direction_z = ray.direction[axis[2]];
     shear_x = ray.direction[axis[0]] / direction_z;
@@ -66,6 +70,9 @@ inline double round_to_float(double value) {
   asm("" : "+x"(rounded));
   return rounded;
 }
+
+// A hit's t from its value in double: -0 becomes 0.
+inline float round_hit_t(double t) { return static_cast<float>(t) + 0.0F; }
 
 // Intersects the triangle of vertices (x[i], y[i], z[i]), given in the ray's permuted axes. The
 // caller compares t with the ray's interval. Degenerate and exactly edge-on triangles are missed,
@@ -88,8 +95,8 @@ inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const f
   const double sum = w0 + w1 + w2;
   if (!inside || sum == 0) return false;
   const double t = (w0 * pz[0] + w1 * pz[1] + w2 * pz[2]) / (sum * ray.direction_z);
-  if (t < 0) return false;               // even if it would round to 0
-  hit.t = static_cast<float>(t) + 0.0F;  // -0 becomes 0
+  if (t < 0) return false;  // even if it would round to 0
+  hit.t = round_hit_t(t);
   hit.u = static_cast<float>(w1 / sum);
   hit.v = static_cast<float>(w2 / sum);
   return true;
@@ -106,9 +113,17 @@ struct ClosestHit {
 
   // Takes a hit if it is in the interval and before the best. Returns whether it was taken.
   bool offer(const TriangleHit& hit, float tmin, uint32_t index) {
-    const bool before = hit.t < limit || (hit.t == limit && index < primitive);
-    if (!(hit.t >= tmin) || !before) return false;
+    if (!takes(hit.t, tmin, index)) return false;
     *this = ClosestHit(hit, index);
+    return true;
+  }
+
+  // The same of a hit as intersect_triangle() has it before it divides by the sum of the weights.
+  bool offer(double t, double w1, double w2, double sum, float tmin, uint32_t index) {
+    const float rounded = round_hit_t(t);
+    if (!takes(rounded, tmin, index)) return false;
+    *this =
+        ClosestHit({rounded, static_cast<float>(w1 / sum), static_cast<float>(w2 / sum)}, index);
     return true;
   }
 
@@ -121,6 +136,10 @@ struct ClosestHit {
   static sobb_hit missed(uint32_t why) { return {INFINITY, 0, 0, why, SOBB_MISS, SOBB_MISS}; }
 
  private:
+  bool takes(float t, float tmin, uint32_t index) const {
+    return t >= tmin && (t < limit || (t == limit && index < primitive));
+  }
+
   ClosestHit(const TriangleHit& hit, uint32_t index)
       : limit(hit.t), u(hit.u), v(hit.v), primitive(index) {}
 };
