@@ -15,9 +15,7 @@ AreaMeasure::AreaMeasure(const Mesh& mesh, const MeshSummary& summary,
       kdops_(mesh.triangle_count()) {
   const float centre[3] = {summary.centre.x, summary.centre.y, summary.centre.z};
   for (uint32_t i = 0; i < kdops_.size(); ++i) {
-    const Reference reference{Corners(mesh, i).box(), i};
-    const LeafNode leaf{{1, true}, &reference};
-    fit_leaf(mesh, leaf, directions_, centre, kernels_, kdops_[i]);
+    fit_leaf(mesh, {{&i, 1}, {}}, directions_, centre, kernels_, kdops_[i]);
   }
 }
 

@@ -14,15 +14,17 @@ constexpr uint64_t kAnySize = ~uint64_t{0};
 constexpr const char* kFreeNormals = "free normals";
 
 // Means over the draws of each method's area over the box's.
-std::vector<double> mean_ratios(const StudyScene& scene, const VolumeAreas& volumes,
-                                const NodeSample& sample, bool optimise) {
+std::vector<double> mean_ratios(const StudyScene& scene, const Topology& topology,
+                                const VolumeAreas& volumes, const NodeSample& sample,
+                                bool optimise) {
   std::vector<std::vector<double>> ratios(sample.nodes.size());
   scene.scheduler().for_each(sample.nodes.size(), [&](uint64_t i) {
     const SampledNode& sampled = sample.nodes[i];
-    const PointSet points(scene.mesh(), *sampled.node, sampled.box);
+    const PointSet points(scene.mesh(), topology, *sampled.node);
     VolumeAreas::Areas areas = volumes.measure(points);
     if (optimise) areas.by_method.push_back(optimise_normals(points, areas.normals));
-    for (double& area : areas.by_method) area *= sampled.times / (2 * sampled.box.half_area());
+    for (double& area : areas.by_method)
+      area *= sampled.times / (2 * sampled.node->box.half_area());
     ratios[i] = std::move(areas.by_method);
   });
   std::vector<double> means(volumes.names().size() + (optimise ? 1 : 0));
@@ -32,12 +34,12 @@ std::vector<double> mean_ratios(const StudyScene& scene, const VolumeAreas& volu
   return means;
 }
 
-Json measure_kind(const StudyScene& scene, const VolumeAreas& volumes, const TopologyNode& root,
+Json measure_kind(const StudyScene& scene, const VolumeAreas& volumes, const Topology& topology,
                   NodeKind kind, uint32_t draws, bool optimise) {
   const NodeSample sample =
-      sample_nodes(root, kind, draws, optimise ? kLargestOptimised : kAnySize);
+      sample_nodes(topology, kind, draws, optimise ? kLargestOptimised : kAnySize);
   Json ratios;
-  const std::vector<double> means = mean_ratios(scene, volumes, sample, optimise);
+  const std::vector<double> means = mean_ratios(scene, topology, volumes, sample, optimise);
   for (size_t m = 0; m < means.size(); ++m) {
     const bool last = m == volumes.names().size();
     ratios[last ? kFreeNormals : volumes.names()[m]] = rounded(means[m]);
@@ -58,10 +60,10 @@ int areas(const StudyOptions& options) {
                  Json sampled = Json::array();
                  Json optimised = Json::array();
                  for (const NodeKind kind : kNodeKinds) {
-                   sampled.push_back(measure_kind(scene, volumes, *topology.root(), kind,
+                   sampled.push_back(measure_kind(scene, volumes, topology, kind,
                                                   options.nodes / kNodeKinds.size(), false));
-                   optimised.push_back(measure_kind(scene, volumes, *topology.root(), kind,
-                                                    options.optimised_nodes, true));
+                   optimised.push_back(
+                       measure_kind(scene, volumes, topology, kind, options.optimised_nodes, true));
                  }
                  return Json{{"sampled", sampled}, {"optimised", optimised}};
                }));

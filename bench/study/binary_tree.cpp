@@ -4,16 +4,17 @@
 namespace sobb::study {
 namespace {
 
-uint32_t append(const TopologyNode& node, BinaryTree& tree) {
+uint32_t append(const Topology& topology, const TopologyNode& node, BinaryTree& tree) {
   const auto at = static_cast<uint32_t>(tree.nodes.size());
   const auto first = static_cast<uint32_t>(tree.references.size());
-  tree.nodes.push_back({{0, 0}, first, static_cast<uint32_t>(node.reference_count)});
+  tree.nodes.push_back({{0, 0}, first, node.count});
   if (node.is_leaf) {
-    const Reference* references = static_cast<const LeafNode&>(node).references;
-    tree.references.insert(tree.references.end(), references, references + node.reference_count);
+    for (const uint32_t primitive : topology.references().part(node.first, node.count).primitives) {
+      tree.references.push_back({primitive});
+    }
   } else {
     for (int i = 0; i < 2; ++i) {
-      const uint32_t child = append(*static_cast<const InnerNode&>(node).child[i], tree);
+      const uint32_t child = append(topology, topology.child(node, i), tree);
       tree.nodes[at].child[i] = child;
     }
   }
@@ -35,9 +36,9 @@ uint32_t append_cut(const BinaryTree& tree, const std::vector<bool>& leaf, uint3
 
 }  // namespace
 
-BinaryTree flatten(const TopologyNode& root) {
+BinaryTree flatten(const Topology& topology) {
   BinaryTree tree;
-  append(root, tree);
+  append(topology, topology.root(), tree);
   return tree;
 }
 

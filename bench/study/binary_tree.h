@@ -9,6 +9,11 @@
 
 namespace sobb::study {
 
+// A triangle in a leaf.
+struct Reference {
+  uint32_t primitive;
+};
+
 struct BinaryNode {
   uint32_t child[2];  // indices of nodes; both 0 for a leaf
   uint32_t first;     // of the references below it
@@ -22,7 +27,7 @@ struct BinaryTree {
   std::vector<BinaryNode> nodes;      // a node, all below its first child, all below its second
 };
 
-BinaryTree flatten(const TopologyNode& root);
+BinaryTree flatten(const Topology& topology);
 
 // The same tree with `leaf` of its nodes as leaves: what lies below them is left out.
 BinaryTree cut(const BinaryTree& tree, const std::vector<bool>& leaf);

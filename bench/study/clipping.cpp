@@ -28,7 +28,7 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
   const Scheduler& scheduler = scene.scheduler();
-  const Tree tree = make_tree(*topology.root(), width, scheduler, scene.memory());
+  const Tree tree = make_tree(topology, width, scheduler, scene.memory());
   const float centre[3] = {summary.centre.x, summary.centre.y, summary.centre.z};
   const auto kdops = fit_children(tree, scene.mesh(), centre, table, scheduler);
   const BasisChooser chooser(directions, tree, kdops, summary.radius, scheduler, scene.memory());

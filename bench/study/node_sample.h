@@ -21,7 +21,6 @@ std::string_view name_of(NodeKind kind);
 
 struct SampledNode {
   const TopologyNode* node;
-  Box box;
   uint32_t times;  // drawn
 };
 
@@ -34,6 +33,6 @@ struct NodeSample {
 
 // Systematic sampling in the order of the tree: spread over it, and without random numbers. Nodes
 // of more than `largest` triangles are left out.
-NodeSample sample_nodes(const TopologyNode& root, NodeKind kind, uint32_t draws, uint64_t largest);
+NodeSample sample_nodes(const Topology& topology, NodeKind kind, uint32_t draws, uint64_t largest);
 
 }  // namespace sobb::study

@@ -9,29 +9,29 @@ namespace {
 
 constexpr size_t kLanes = 8;
 
-void gather_vertices(const Mesh& mesh, const TopologyNode& node, std::vector<uint32_t>& vertices) {
+void gather_vertices(const Mesh& mesh, const Topology& topology, const TopologyNode& node,
+                     std::vector<uint32_t>& vertices) {
   if (!node.is_leaf) {
-    for (const TopologyNode* child : static_cast<const InnerNode&>(node).child) {
-      gather_vertices(mesh, *child, vertices);
-    }
+    for (int i = 0; i < 2; ++i) gather_vertices(mesh, topology, topology.child(node, i), vertices);
     return;
   }
-  const auto& leaf = static_cast<const LeafNode&>(node);
-  for (uint64_t at = 0; at < leaf.reference_count; ++at) {
-    for (int i = 0; i < 3; ++i) vertices.push_back(mesh.index(leaf.references[at].primitive, i));
+  for (const uint32_t primitive : topology.references().part(node.first, node.count).primitives) {
+    for (int i = 0; i < 3; ++i) vertices.push_back(mesh.index(primitive, i));
   }
 }
 
 }  // namespace
 
-PointSet::PointSet(const Mesh& mesh, const TopologyNode& node, const Box& box) {
+PointSet::PointSet(const Mesh& mesh, const Topology& topology, const TopologyNode& node) {
   std::vector<uint32_t> vertices;
-  gather_vertices(mesh, node, vertices);
+  gather_vertices(mesh, topology, node, vertices);
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   size_ = vertices.size();
   const size_t padded = (size_ + kLanes - 1) / kLanes * kLanes;
-  const auto middle = [&](int k) { return (static_cast<double>(box.lower[k]) + box.upper[k]) / 2; };
+  const auto middle = [&](int k) {
+    return (static_cast<double>(node.box.lower[k]) + node.box.upper[k]) / 2;
+  };
   for (size_t i = 0; i < padded; ++i) {
     const Point p = mesh.vertex(vertices[std::min(i, size_ - 1)]);
     x_.push_back(static_cast<float>(p.x - middle(0)));

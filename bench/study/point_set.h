@@ -16,7 +16,7 @@ class PointSet {
  public:
   // Each vertex once, relative to the middle of the node's box: widths then round relative to the
   // node's size, not to the scene's.
-  PointSet(const Mesh& mesh, const TopologyNode& node, const Box& box);
+  PointSet(const Mesh& mesh, const Topology& topology, const TopologyNode& node);
 
   // max n . p - min n . p, n of unit length.
   double width(const Direction& n) const;

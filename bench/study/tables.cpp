@@ -33,13 +33,13 @@ NamedTable fitted_table(StudyScene& scene, uint32_t k) {
           scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory())};
 }
 
-Json measure_width(StudyScene& scene, const TopologyNode& root, uint32_t width,
+Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
                    const std::vector<Direction>& directions, const BasisRule& rule,
                    WorkCounter& counter) {
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
   const Scheduler& scheduler = scene.scheduler();
-  const Tree tree = make_tree(root, width, scheduler, scene.memory());
+  const Tree tree = make_tree(topology, width, scheduler, scene.memory());
   const float centre[3] = {summary.centre.x, summary.centre.y, summary.centre.z};
   const auto kdops = fit_children(tree, scene.mesh(), centre, table, scheduler);
   const BasisChooser chooser(directions, tree, kdops, summary.radius, scheduler, scene.memory());
@@ -56,11 +56,11 @@ Json measure_table(StudyScene& scene, const NamedTable& table, WorkCounter& coun
   const Frame frame(table.directions, scene.summary().centre);
   const Topology topology = scene.build_topology(frame);
   const bool aabb = table.directions.size() == 3;
-  return {{"table", table.name},
-          {"binary", measure_width(scene, *topology.root(), 2, table.directions,
-                                   aabb ? kAxes : kOwn, counter)},
-          {"wide", measure_width(scene, *topology.root(), 8, table.directions,
-                                 aabb ? kAxes : kShared, counter)}};
+  return {
+      {"table", table.name},
+      {"binary", measure_width(scene, topology, 2, table.directions, aabb ? kAxes : kOwn, counter)},
+      {"wide",
+       measure_width(scene, topology, 8, table.directions, aabb ? kAxes : kShared, counter)}};
 }
 
 }  // namespace

@@ -76,13 +76,13 @@ class Variants {
     Memory memory;
     Progress progress(nullptr, nullptr);
     const Topology topology(mesh_, SOBB_QUALITY_MEDIUM, Scheduler(1, nullptr), memory, progress, 1);
-    return flatten(*topology.root());
+    return flatten(topology);
   }
 
   BinaryTree build(const SahSettings& settings) const {
     BinaryTree tree;
     for (uint32_t i = 0; i < mesh_.triangle_count(); ++i) {
-      tree.references.push_back({Corners(mesh_, i).box(), i});
+      tree.references.push_back({i});
     }
     SahBuilder(measure_, tangents_, settings).build(tree);
     return tree;

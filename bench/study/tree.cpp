@@ -12,20 +12,17 @@ namespace {
 constexpr uint64_t kGrain = 4096;
 
 // Appends a part's nodes; its indices are the tree's.
-void append(const Part& part, Tree& tree) {
+void append(const Part& part, const References& references, Tree& tree) {
   for (const WideNode& wide : part.nodes) {
     tree.nodes.push_back({static_cast<uint32_t>(tree.children.size()), wide.child_count});
     for (uint32_t i = 0; i < wide.child_count; ++i) {
-      if (!wide.child[i]->is_leaf) {
+      if (!wide.is_leaf(i)) {
         tree.children.push_back({wide.index[i], 0});
         continue;
       }
-      const auto& leaf = *static_cast<const LeafNode*>(wide.child[i]);
-      tree.children.push_back({static_cast<uint32_t>(tree.primitives.size()),
-                               static_cast<uint32_t>(leaf.reference_count)});
-      for (uint64_t at = 0; at < leaf.reference_count; ++at) {
-        tree.primitives.push_back(leaf.references[at].primitive);
-      }
+      tree.children.push_back({static_cast<uint32_t>(tree.primitives.size()), wide.count[i]});
+      const auto leaf = references.part(wide.first[i], wide.count[i]).primitives;
+      tree.primitives.insert(tree.primitives.end(), leaf.begin(), leaf.end());
     }
   }
 }
@@ -36,14 +33,14 @@ Direction direction_of(const DirectionTable& table, uint32_t k) {
 
 }  // namespace
 
-Tree make_tree(const TopologyNode& root, uint32_t width, const Scheduler& scheduler,
+Tree make_tree(const Topology& topology, uint32_t width, const Scheduler& scheduler,
                Memory& memory) {
-  const WideTopology wide = collapse(root, width, scheduler, memory);
+  const WideTopology wide = collapse(topology, width, scheduler, memory);
   Tree tree;
   tree.depth = wide.depth;
   tree.nodes.reserve(wide.node_count);
-  append(wide.top, tree);
-  for (const Part& part : wide.subtrees) append(part, tree);
+  append(wide.top, wide.references, tree);
+  for (const Part& part : wide.subtrees) append(part, wide.references, tree);
   return tree;
 }
 

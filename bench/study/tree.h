@@ -34,7 +34,7 @@ struct Tree {
 };
 
 // Collapses a binary topology to nodes of 2, 4 or 8 children, as the library does.
-Tree make_tree(const TopologyNode& root, uint32_t width, const Scheduler& scheduler,
+Tree make_tree(const Topology& topology, uint32_t width, const Scheduler& scheduler,
                Memory& memory);
 
 // The k-DOP of every child, relative to the centre.

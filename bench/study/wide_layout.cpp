@@ -2,6 +2,7 @@
 #include "wide_layout.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "format/layout.h"
@@ -25,11 +26,10 @@ void gather(const BinaryTree& tree, const WideCut& cut, uint32_t node,
 
 WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_resource& memory) {
   if (tree.nodes[0].is_leaf()) fail(SOBB_ERROR_INTERNAL, "a hierarchy of one leaf only");
-  WideLayout layout{{}, WideTopology(memory), 0, 0};
-  for (size_t i = 0; i < tree.nodes.size(); ++i) {
-    const BinaryNode& node = tree.nodes[i];
-    layout.nodes.push_back({{node.count, cut[i] == Role::kLeaf}, &tree.references[node.first]});
-  }
+  std::vector<uint32_t> primitives;
+  for (const Reference& reference : tree.references) primitives.push_back(reference.primitive);
+  const References references{primitives, {}};
+  WideLayout layout{std::move(primitives), WideTopology(references, memory), 0, 0};
 
   Part& part = layout.topology.top;
   struct Open {
@@ -50,9 +50,10 @@ WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_
     WideNode wide{};
     for (const uint32_t child : children) {
       const uint32_t i = wide.child_count++;
-      wide.child[i] = &layout.nodes[child];
       if (cut[child] == Role::kLeaf) {
         wide.index[i] = static_cast<uint32_t>(part.block_count);
+        wide.first[i] = tree.nodes[child].first;
+        wide.count[i] = static_cast<uint8_t>(tree.nodes[child].count);
         part.block_count += blocks_of(tree.nodes[child].count);
         ++layout.leaf_count;
         depth_sum += open.depth;

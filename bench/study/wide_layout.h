@@ -9,10 +9,9 @@
 
 namespace sobb::study {
 
-// Borrows the tree's references. All nodes are in the topology's top: the build that follows is
-// then a serial one.
+// All nodes are in the topology's top: the build that follows is then a serial one.
 struct WideLayout {
-  std::vector<LeafNode> nodes;  // of the tree, what the wide nodes' children point at
+  std::vector<uint32_t> primitives;  // which the topology borrows
   WideTopology topology;
   uint64_t leaf_count = 0;
   double mean_leaf_depth = 0;  // wide nodes above a leaf

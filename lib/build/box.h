@@ -23,6 +23,13 @@ struct Box {
     return x * y + y * z + z * x;
   }
 
+  void grow(const Box& other) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = std::min(lower[k], other.lower[k]);
+      upper[k] = std::max(upper[k], other.upper[k]);
+    }
+  }
+
   bool operator==(const Box& other) const {
     return std::equal(lower, lower + 3, other.lower) && std::equal(upper, upper + 3, other.upper);
   }

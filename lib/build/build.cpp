@@ -113,11 +113,11 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   const MeshSummary summary = summarise(mesh, scheduler, *memory);
   const std::vector<Direction> directions = choose_directions(mesh, settings, scheduler, *memory);
   const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd,
-                          Frame(directions, summary.centre));
+                          Frame(directions, summary.centre), settings.isa);
   times.topology_ms = ms_since(start);
 
   const auto collapse_start = Clock::now();
-  const WideTopology wide = collapse(*topology.root(), settings.width, scheduler, *memory);
+  const WideTopology wide = collapse(topology, settings.width, scheduler, *memory);
   times.collapse_ms = ms_since(collapse_start);
   progress.check(kTopologyEnd, kCollapseEnd, 1);
 
@@ -128,7 +128,7 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
       {settings.width, static_cast<uint32_t>(directions.size()), wide.node_count, wide.block_count},
       parts, Zeroed::kAllButNodesAndBlocks);
   fill_header(summary, mesh.triangle_count(), settings, wide.depth, *parts.header);
-  fill_record(summary, topology.root()->reference_count, settings, *parts.record);
+  fill_record(summary, wide.reference_count, settings, *parts.record);
   std::copy(directions.begin(), directions.end(), parts.directions.begin());
   make_volumes(mesh, wide, {settings.volume, settings.strategy, settings.isa}, parts, scheduler,
                *memory, progress, kCollapseEnd);

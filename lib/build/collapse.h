@@ -16,11 +16,14 @@ inline constexpr uint32_t kMaxWidth = 8;
 
 // A wide node before it has volumes.
 struct WideNode {
-  const TopologyNode* child[kMaxWidth];
   // Of an inner child its node's index, of a leaf its first block's: within the part at first, in
   // the file once laid out.
   uint32_t index[kMaxWidth];
+  uint32_t first[kMaxWidth];  // of a leaf, its first reference
+  uint8_t count[kMaxWidth];   // of a leaf, its references; of an inner child zero
   uint32_t child_count;
+
+  bool is_leaf(uint32_t child) const { return count[child] > 0; }
 };
 
 // Nodes that one thread makes at a time: a subtree, or the top of the hierarchy. Parents come
@@ -30,14 +33,17 @@ struct Part {
   uint64_t first_node = 0;   // of the file
   uint64_t first_block = 0;  // likewise
   uint64_t block_count = 0;
-  uint32_t depth = 0;  // nodes on the longest way down within the part
+  uint64_t reference_count = 0;  // in leaves
+  uint32_t depth = 0;            // nodes on the longest way down within the part
 
   explicit Part(std::pmr::memory_resource& memory) : nodes(&memory) {}
 };
 
-// The whole hierarchy: its top, whose lowest inner children are the roots of subtrees. The cut
-// depends on the topology alone, so that all is the same for any number of threads.
+// The whole hierarchy, over the references of a topology: its top, whose lowest inner children are
+// the roots of subtrees. The cut depends on the topology alone, so that all is the same for any
+// number of threads.
 struct WideTopology {
+  References references;
   Part top;
   std::pmr::vector<Part> subtrees;  // in the order of the file
   // By subtree: the node of the top whose child it is, and which child.
@@ -48,15 +54,17 @@ struct WideTopology {
   std::pmr::vector<Place> places;
   uint64_t node_count = 0;
   uint64_t block_count = 0;
+  uint64_t reference_count = 0;
   uint32_t depth = 0;
 
-  explicit WideTopology(std::pmr::memory_resource& memory)
-      : top(memory), subtrees(&memory), places(&memory) {}
+  WideTopology(const References& references, std::pmr::memory_resource& memory)
+      : references(references), top(memory), subtrees(&memory), places(&memory) {}
 };
 
 // Of the wide nodes that a subtree can have, those of the least cost (least_cost_cut.h); in the
-// top, some hundred nodes, the child of the largest box is opened until there are `width`.
-WideTopology collapse(const TopologyNode& root, uint32_t width, const Scheduler& scheduler,
+// top, some hundred nodes, the child of the largest box is opened until there are `width`. Borrows
+// the topology's references, not its nodes.
+WideTopology collapse(const Topology& topology, uint32_t width, const Scheduler& scheduler,
                       std::pmr::memory_resource& memory);
 
 }  // namespace sobb

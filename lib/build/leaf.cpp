@@ -15,28 +15,27 @@ RelativePoint relative(const double point[3], const float centre[3]) {
 
 }  // namespace
 
-void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& directions,
+void fit_leaf(const Mesh& mesh, const References& leaf, const DirectionTable& directions,
               const float centre[3], const BoundsKernels& kernels, Kdop& kdop, const Frame& frame) {
   RelativePoint points[9 * kMaxLeafReferences];
   uint64_t count = 0;
-  for (uint64_t i = 0; i < leaf.reference_count; ++i) {
-    const Reference& reference = leaf.references[i];
-    const Corners corners(mesh, reference.primitive, frame);
+  for (size_t i = 0; i < leaf.primitives.size(); ++i) {
+    const Corners corners(mesh, leaf.primitives[i], frame);
     double polygon[9][3];
     int polygon_count = 0;
-    if (reference.box == corners.box()) {
+    if (leaf.boxes.empty() || leaf.boxes[i] == corners.box()) {
       for (; polygon_count < 3; ++polygon_count) {
         const double* corner = corners.point[polygon_count];
         std::copy(corner, corner + 3, polygon[polygon_count]);
       }
     } else {
-      polygon_count = clip_to_box(corners, reference.box, polygon);
+      polygon_count = clip_to_box(corners, leaf.boxes[i], polygon);
     }
     for (int j = 0; j < polygon_count; ++j) points[count++] = relative(polygon[j], centre);
   }
   if (count == 0) {
     // Every reference's box misses its triangle: nothing can be hit here, but a volume there is.
-    const float* corner = leaf.references[0].box.lower;
+    const float* corner = leaf.boxes[0].lower;
     const double at[3] = {corner[0], corner[1], corner[2]};
     double point[3];
     frame.turn_back(at, point);
@@ -45,15 +44,15 @@ void fit_leaf(const Mesh& mesh, const LeafNode& leaf, const DirectionTable& dire
   kernels.fit(directions, points, count, kdop);
 }
 
-void write_blocks(const Mesh& mesh, const LeafNode& leaf, TriangleBlock* blocks) {
-  for (uint64_t i = 0; i < blocks_of(leaf.reference_count); ++i) {
+void write_blocks(const Mesh& mesh, std::span<const uint32_t> primitives, TriangleBlock* blocks) {
+  for (uint64_t i = 0; i < blocks_of(primitives.size()); ++i) {
     for (uint64_t lane = 0; lane < 4; ++lane) {
       const uint64_t at = 4 * i + lane;
-      if (at >= leaf.reference_count) {
+      if (at >= primitives.size()) {
         blocks[i].primitive[lane] = kNoPrimitive;
         continue;
       }
-      const uint32_t primitive = leaf.references[at].primitive;
+      const uint32_t primitive = primitives[at];
       for (int vertex = 0; vertex < 3; ++vertex) {
         const Point corner = mesh.corner(primitive, vertex);
         blocks[i].vertex[vertex][0][lane] = corner.x;

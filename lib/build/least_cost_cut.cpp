@@ -1,67 +1,101 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "build/least_cost_cut.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace sobb {
+namespace {
 
-LeastCostCut::LeastCostCut(const TopologyNode& root, uint32_t width,
+// One past the last pair below a node: pairs lie depth first.
+uint32_t pairs_end(const Topology& topology, const TopologyNode& root) {
+  const TopologyNode* node = &root;
+  uint32_t end = root.first;
+  while (!node->is_leaf) {
+    end = node->first + 1;
+    const TopologyNode& right = topology.child(*node, 1);
+    node = right.is_leaf ? &topology.child(*node, 0) : &right;
+  }
+  return end;
+}
+
+}  // namespace
+
+LeastCostCut::LeastCostCut(const Topology& topology, const TopologyNode& root, uint32_t width,
                            std::pmr::memory_resource& memory)
-    : width_(width), binary_(&memory) {
-  binary_.reserve(root.reference_count);
-  binary_.push_back({&root, 0, {}, {}, {}, {}});
-  for (uint32_t at = 0; at < binary_.size(); ++at) {
-    if (binary_[at].node->is_leaf) continue;
-    const auto& inner = *static_cast<const InnerNode*>(binary_[at].node);
-    for (int side = 0; side < 2; ++side) {
-      binary_[at].child[side] = static_cast<uint32_t>(binary_.size());
-      binary_.push_back({inner.child[side], inner.box[side].half_area(), {}, {}, {}, {}});
+    : topology_(topology), width_(width), first_(root.first), costs_(&memory) {
+  const double area = root.box.half_area();
+  scale_ = area > 0 ? 1 / area : 1;
+  costs_.resize(pairs_end(topology, root) - first_);
+  for (auto at = static_cast<uint32_t>(costs_.size()); at-- > 0;) {
+    for (const TopologyNode& node : topology.pairs()[first_ + at].child) {
+      if (!node.is_leaf) solve(node, costs_[node.first - first_]);
     }
-  }
-  for (size_t at = binary_.size(); at-- > 0;) {
-    if (!binary_[at].node->is_leaf) solve(binary_[at]);
   }
 }
 
-void LeastCostCut::solve(Binary& binary) const {
-  const Binary& left = binary_[binary.child[0]];
-  const Binary& right = binary_[binary.child[1]];
-  double shared_out[kMaxWidth + 1] = {};
-  Shares best[kMaxWidth + 1];
-  for (uint32_t trees = 2; trees <= width_; ++trees) {
-    for (uint32_t j = 1; j < trees; ++j) {
-      const double cost = left.cost[j] + right.cost[trees - j];
-      if (j > 1 && !(cost < shared_out[trees])) continue;
-      shared_out[trees] = cost;
-      best[trees] = {static_cast<uint8_t>(j), static_cast<uint8_t>(trees - j)};
+const LeastCostCut::Costs& LeastCostCut::costs(const TopologyNode& node) const {
+  static constexpr Costs kNothing{};
+  return node.is_leaf ? kNothing : costs_[node.first - first_];
+}
+
+void LeastCostCut::solve(const TopologyNode& node, Costs& costs) const {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const Costs& left = this->costs(topology_.child(node, 0));
+  // C(right, i), infinite for i < 1.
+  float right[2 * kMaxWidth];
+  std::fill_n(right, kMaxWidth, kInfinity);
+  std::copy_n(this->costs(topology_.child(node, 1)).of, kMaxWidth, right + kMaxWidth);
+  float shared_out[kMaxWidth];
+  std::fill_n(shared_out, kMaxWidth, kInfinity);
+  for (uint32_t j = 0; j + 1 < kMaxWidth; ++j) {
+    for (uint32_t i = 0; i < kMaxWidth; ++i) {
+      shared_out[i] = std::min(shared_out[i], left.of[j] + right[kMaxWidth + i - j - 1]);
     }
   }
-  binary.opened = best[width_];
-  binary.cost[1] = binary.area + shared_out[width_];
-  for (uint32_t trees = 2; trees <= width_; ++trees) {
-    const bool more = shared_out[trees] < binary.cost[trees - 1];
-    binary.cost[trees] = more ? shared_out[trees] : binary.cost[trees - 1];
-    binary.shares[trees] = more ? best[trees] : binary.shares[trees - 1];
+  float least = static_cast<float>(node.box.half_area() * scale_) + shared_out[width_ - 1];
+  costs.of[0] = least;
+  for (uint32_t i = 1; i < kMaxWidth; ++i) {
+    least = std::min(least, shared_out[i]);
+    costs.of[i] = least;
   }
 }
 
-uint32_t LeastCostCut::children(uint32_t at, const TopologyNode* child[kMaxWidth],
-                                uint32_t place[kMaxWidth]) const {
+uint32_t LeastCostCut::children(const TopologyNode& node,
+                                const TopologyNode* child[kMaxWidth]) const {
   uint32_t count = 0;
-  gather(at, binary_[at].opened, child, place, count);
+  share(node, width_, child, count);
   return count;
 }
 
-void LeastCostCut::gather(uint32_t at, Shares shares, const TopologyNode* child[kMaxWidth],
-                          uint32_t place[kMaxWidth], uint32_t& count) const {
-  const Binary& binary = binary_[at];
-  if (shares.left == 0) {
-    child[count] = binary.node;
-    place[count++] = at;
-    return;
+// As at most `trees` trees.
+void LeastCostCut::gather(const TopologyNode& node, uint32_t trees,
+                          const TopologyNode* child[kMaxWidth], uint32_t& count) const {
+  const Costs& known = costs(node);
+  while (trees > 1 && !(known.of[trees - 1] < known.of[trees - 2])) --trees;
+  if (trees == 1) {
+    child[count++] = &node;
+  } else {
+    share(node, trees, child, count);
   }
-  const Binary& left = binary_[binary.child[0]];
-  const Binary& right = binary_[binary.child[1]];
-  gather(binary.child[0], left.shares[shares.left], child, place, count);
-  gather(binary.child[1], right.shares[shares.right], child, place, count);
+}
+
+// What is below as at most `trees` trees.
+void LeastCostCut::share(const TopologyNode& node, uint32_t trees,
+                         const TopologyNode* child[kMaxWidth], uint32_t& count) const {
+  const TopologyNode& left = topology_.child(node, 0);
+  const TopologyNode& right = topology_.child(node, 1);
+  uint32_t best = 1;
+  float least = std::numeric_limits<float>::infinity();
+  for (uint32_t j = 1; j < trees; ++j) {
+    const float cost = costs(left).of[j - 1] + costs(right).of[trees - j - 1];
+    if (cost < least) {
+      least = cost;
+      best = j;
+    }
+  }
+  gather(left, best, child, count);
+  gather(right, trees - best, child, count);
 }
 
 }  // namespace sobb

@@ -21,36 +21,32 @@ namespace sobb {
 // the left.
 class LeastCostCut {
  public:
-  // The root, which is no leaf, is a wide node's. Holds about 150 bytes a node while it lives.
-  LeastCostCut(const TopologyNode& root, uint32_t width, std::pmr::memory_resource& memory);
+  // The root, which is no leaf, is a wide node's. Holds 32 bytes a pair of nodes while it lives.
+  LeastCostCut(const Topology& topology, const TopologyNode& root, uint32_t width,
+               std::pmr::memory_resource& memory);
 
-  static constexpr uint32_t kRoot = 0;
-
-  // The children of the wide node that stands for a binary one, in the binary order; `place` are
-  // theirs, to ask with for what lies below them.
-  uint32_t children(uint32_t at, const TopologyNode* child[kMaxWidth],
-                    uint32_t place[kMaxWidth]) const;
+  // The children of the wide node that stands for a binary one, in the binary order. Returns their
+  // number.
+  uint32_t children(const TopologyNode& node, const TopologyNode* child[kMaxWidth]) const;
 
  private:
-  struct Shares {
-    uint8_t left = 0;  // trees of the left child; none: the node itself is a tree
-    uint8_t right = 0;
-  };
-  struct Binary {
-    const TopologyNode* node;
-    double area;
-    uint32_t child[2];
-    double cost[kMaxWidth + 1];    // C, by trees
-    Shares shares[kMaxWidth + 1];  // how the node is shared out at that cost
-    Shares opened;                 // as a wide node's root
+  // C by trees, from one on.
+  struct Costs {
+    float of[kMaxWidth];
   };
 
-  void solve(Binary& binary) const;
-  void gather(uint32_t at, Shares shares, const TopologyNode* child[kMaxWidth],
-              uint32_t place[kMaxWidth], uint32_t& count) const;
+  const Costs& costs(const TopologyNode& node) const;
+  void solve(const TopologyNode& node, Costs& costs) const;
+  void gather(const TopologyNode& node, uint32_t trees, const TopologyNode* child[kMaxWidth],
+              uint32_t& count) const;
+  void share(const TopologyNode& node, uint32_t trees, const TopologyNode* child[kMaxWidth],
+             uint32_t& count) const;
 
+  const Topology& topology_;
   uint32_t width_;
-  std::pmr::vector<Binary> binary_;  // parents before their children
+  uint32_t first_;                 // pair
+  double scale_;                   // of areas, so that none overflows
+  std::pmr::vector<Costs> costs_;  // of the nodes whose children the pairs are
 };
 
 }  // namespace sobb

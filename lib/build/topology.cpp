@@ -1,236 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "build/topology.h"
 
-#include <algorithm>
-#include <atomic>
-#include <new>
-#include <vector>
-
-#include "build/clip.h"
-#include "format/layout.h"
-
-#if SOBB_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "base/isa.h"
+#include "build/embree_topology.h"
+#include "build/topology_builder.h"
 
 namespace sobb {
 namespace {
 
-constexpr uint64_t kGrain = 1 << 15;
-// Room for references that spatial splits add, as a part of the triangles.
-constexpr double kSplitRoom = 0.3;
-// Costs of a binary step and of a block of four triangles. A wide node takes about three binary
-// steps at once. (From 0.25 to 1 a ray's visits shift between nodes and blocks, its time does not.)
-constexpr float kStepCost = 0.5F;
-constexpr float kBlockCost = 1.0F;
+constexpr uint64_t kGrain = 1 << 14;
 
-Box to_box(const RTCBounds& bounds) {
-  return {{bounds.lower_x, bounds.lower_y, bounds.lower_z},
-          {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
-}
-
-Box to_box(const RTCBuildPrimitive& primitive) {
-  return {{primitive.lower_x, primitive.lower_y, primitive.lower_z},
-          {primitive.upper_x, primitive.upper_y, primitive.upper_z}};
-}
-
-void to_bounds(const Box& box, RTCBounds& bounds) {
-  bounds = {box.lower[0], box.lower[1], box.lower[2], 0,
-            box.upper[0], box.upper[1], box.upper[2], 0};
-}
-
-RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
-  return {box.lower[0], box.lower[1], box.lower[2], 0,
-          box.upper[0], box.upper[1], box.upper[2], index};
-}
-
-RTCBuildQuality to_embree(sobb_quality quality) {
-  switch (quality) {
-    case SOBB_QUALITY_LOW:
-      return RTC_BUILD_QUALITY_LOW;
-    case SOBB_QUALITY_HIGH:
-      return RTC_BUILD_QUALITY_HIGH;
-    default:
-      return RTC_BUILD_QUALITY_MEDIUM;
-  }
+BinaryNodes own_topology(const Mesh& mesh, const Scheduler& scheduler, Memory& memory,
+                         Progress& progress, double progress_end, const Frame& frame,
+                         sobb_isa isa) {
+  const uint64_t count = mesh.triangle_count();
+  Array<SahReference> references(count, memory);
+  Array<SahReference> other(count, memory);
+  scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
+    for (uint64_t i = begin; i < end; ++i) {
+      references[i] = SahReference::of(Corners(mesh, i, frame).box(), static_cast<uint32_t>(i));
+    }
+  });
+  BinaryNodes nodes;
+  nodes.primitives = Array<uint32_t>(count, memory);
+  TopologyBuilder builder(references.data(), other.data(), count, nodes.primitives.data(),
+                          sah_kernels(resolve_isa(isa)), scheduler, memory);
+  builder.build(progress, progress_end);
+  references = {};
+  other = {};
+  nodes.pairs = builder.collect(nodes.root);
+  return nodes;
 }
 
 }  // namespace
 
-// What Embree's callbacks see. They run on several threads at once and may not throw.
-struct Topology::Builder {
-  const Mesh& mesh;
-  const Frame frame;
-  Memory& memory;
-  Progress& progress;
-  double progress_end;
-  RTCDevice device = nullptr;
-  RTCBVH bvh = nullptr;
-  std::atomic<bool> limit_met{false};  // the memory limit refused Embree something
-  std::atomic<bool> starved{false};    // a node or leaf got no memory, and is missing
-
-  Builder(const Mesh& mesh, const Frame& frame, Memory& memory, Progress& progress,
-          double progress_end)
-      : mesh(mesh), frame(frame), memory(memory), progress(progress), progress_end(progress_end) {}
-  ~Builder() {
-    if (bvh != nullptr) rtcReleaseBVH(bvh);
-    if (device != nullptr) rtcReleaseDevice(device);
-  }
-  Builder(const Builder&) = delete;
-  Builder& operator=(const Builder&) = delete;
-
-  // For a node or leaf; null without memory. Embree goes on with such a node, so that all callbacks
-  // see it, until on_progress() stops the build.
-  void* allocate(RTCThreadLocalAllocator allocator, size_t size, size_t alignment) {
-    void* at = rtcThreadLocalAlloc(allocator, size, alignment);
-    if (at == nullptr) starved = true;
-    return at;
-  }
-
-  static void* create_node(RTCThreadLocalAllocator allocator, unsigned, void* user) {
-    void* at =
-        static_cast<Builder*>(user)->allocate(allocator, sizeof(InnerNode), alignof(InnerNode));
-    if (at == nullptr) return nullptr;
-    auto* node = new (at) InnerNode;
-    node->is_leaf = false;
-    return static_cast<TopologyNode*>(node);
-  }
-
-  static InnerNode* inner(void* node) {
-    return static_cast<InnerNode*>(static_cast<TopologyNode*>(node));
-  }
-
-  // Called when the children are complete.
-  static void set_children(void* node, void** children, unsigned count, void*) {
-    InnerNode* parent = inner(node);
-    if (parent == nullptr) return;
-    parent->reference_count = 0;
-    for (unsigned i = 0; i < count; ++i) {
-      if (children[i] == nullptr) return;
-      parent->child[i] = static_cast<const TopologyNode*>(children[i]);
-      parent->reference_count += parent->child[i]->reference_count;
-    }
-  }
-
-  static void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
-    if (node == nullptr) return;
-    for (unsigned i = 0; i < count; ++i) inner(node)->box[i] = to_box(*bounds[i]);
-  }
-
-  static void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
-                           size_t count, void* user) {
-    void* at = static_cast<Builder*>(user)->allocate(
-        allocator, sizeof(LeafNode) + count * sizeof(Reference), alignof(LeafNode));
-    if (at == nullptr) return nullptr;
-    auto* leaf = new (at) LeafNode;
-    auto* references = new (leaf + 1) Reference[count];
-    for (size_t i = 0; i < count; ++i) {
-      references[i] = {to_box(primitives[i]), primitives[i].primID};
-    }
-    // Embree's order depends on its threads.
-    std::sort(references, references + count, [](const Reference& a, const Reference& b) {
-      if (a.primitive != b.primitive) return a.primitive < b.primitive;
-      return std::lexicographical_compare(a.box.lower, a.box.lower + 3, b.box.lower,
-                                          b.box.lower + 3);
-    });
-    leaf->reference_count = count;
-    leaf->is_leaf = true;
-    leaf->references = references;
-    return static_cast<TopologyNode*>(leaf);
-  }
-
-  static void split(const RTCBuildPrimitive* primitive, unsigned axis, float position,
-                    RTCBounds* below, RTCBounds* above, void* user) {
-    const auto* self = static_cast<const Builder*>(user);
-    Box low;
-    Box high;
-    split_box(Corners(self->mesh, primitive->primID, self->frame), to_box(*primitive),
-              static_cast<int>(axis), position, low, high);
-    to_bounds(low, *below);
-    to_bounds(high, *above);
-  }
-
-  static bool on_progress(void* user, double fraction) {
-    auto* self = static_cast<Builder*>(user);
-    return !self->starved && self->progress.report(0, self->progress_end, std::min(fraction, 1.0));
-  }
-
-  static bool on_memory(void* user, ssize_t bytes, bool) {
-    auto* self = static_cast<Builder*>(user);
-    if (self->memory.count_foreign(bytes)) return true;
-    self->limit_met = true;
-    return false;
-  }
-
-  // Turns Embree's failure into ours.
-  [[noreturn]] void fail_build() {
-    if (limit_met) {
-      fail(SOBB_ERROR_MEMORY_LIMIT, "memory limit: the topology builder needs more than %llu bytes",
-           static_cast<unsigned long long>(memory.limit()));
-    }
-    const RTCError error = rtcGetDeviceError(device);
-    if (starved || error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
-    if (error == RTC_ERROR_CANCELLED) fail(SOBB_ERROR_CANCELLED, "the build was cancelled");
-    fail(SOBB_ERROR_INTERNAL, "Embree's builder failed with error %d", static_cast<int>(error));
-  }
-
-  const TopologyNode* build(sobb_quality quality, const Scheduler& scheduler) {
-    device = rtcNewDevice(nullptr);
-    if (device == nullptr) {
-      fail(SOBB_ERROR_INTERNAL, "Embree's device: error %d",
-           static_cast<int>(rtcGetDeviceError(nullptr)));
-    }
-    rtcSetDeviceMemoryMonitorFunction(device, on_memory, this);
-    bvh = rtcNewBVH(device);
-    if (bvh == nullptr) fail_build();
-
-    const uint64_t count = mesh.triangle_count();
-    const auto room = quality == SOBB_QUALITY_HIGH
-                          ? static_cast<uint64_t>(static_cast<double>(count) * kSplitRoom)
-                          : 0;
-    std::pmr::vector<RTCBuildPrimitive> primitives(count + room, &memory);
-    scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
-      for (uint64_t i = begin; i < end; ++i) {
-        primitives[i] = to_primitive(Corners(mesh, i, frame).box(), static_cast<uint32_t>(i));
-      }
-    });
-
-    RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = to_embree(quality);
-    arguments.maxBranchingFactor = 2;
-    arguments.maxDepth = kMaxDepth;
-    arguments.sahBlockSize = 4;
-    // Morton order has no cost model: its leaves are one block.
-    arguments.minLeafSize = quality == SOBB_QUALITY_LOW ? 4 : 1;
-    arguments.maxLeafSize = kMaxLeafReferences;
-    arguments.traversalCost = kStepCost;
-    arguments.intersectionCost = kBlockCost;
-    arguments.bvh = bvh;
-    arguments.primitives = primitives.data();
-    arguments.primitiveCount = count;
-    arguments.primitiveArrayCapacity = primitives.size();
-    arguments.createNode = create_node;
-    arguments.setNodeChildren = set_children;
-    arguments.setNodeBounds = set_bounds;
-    arguments.createLeaf = create_leaf;
-    arguments.splitPrimitive = quality == SOBB_QUALITY_HIGH ? split : nullptr;
-    arguments.buildProgress = on_progress;
-    arguments.userPtr = this;
-    const void* root = nullptr;
-    scheduler.within_arena([&] { root = rtcBuildBVH(&arguments); });
-    if (root == nullptr || starved) fail_build();
-    return static_cast<const TopologyNode*>(root);
-  }
-};
-
 Topology::Topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler,
-                   Memory& memory, Progress& progress, double progress_end, const Frame& frame)
-    : builder_(std::make_unique<Builder>(mesh, frame, memory, progress, progress_end)) {
-  root_ = builder_->build(quality, scheduler);
-}
-
-Topology::~Topology() = default;
+                   Memory& memory, Progress& progress, double progress_end, const Frame& frame,
+                   sobb_isa isa)
+    : nodes_(
+          quality == SOBB_QUALITY_MEDIUM
+              ? own_topology(mesh, scheduler, memory, progress, progress_end, frame, isa)
+              : embree_topology(mesh, quality, scheduler, memory, progress, progress_end, frame)) {}
 
 }  // namespace sobb

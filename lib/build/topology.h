@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary hierarchy over the triangles' boxes along the axes of a frame, made by Embree's
-// builder. It says which triangles lie together; volumes come later.
+// The binary hierarchy over the triangles' boxes along the axes of a frame. It says which triangles
+// lie together; volumes come later.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <memory>
+#include <span>
 
 #include "base/memory.h"
 #include "base/scheduler.h"
+#include "build/array.h"
 #include "build/box.h"
 #include "build/progress.h"
 #include "sobb/sobb.h"
@@ -16,44 +18,61 @@ namespace sobb {
 
 inline constexpr uint32_t kMaxLeafReferences = 8;
 
-// A triangle in a leaf, or the part of one that a spatial split left within `box`.
-struct Reference {
-  Box box;
-  uint32_t primitive;
-};
-
 struct TopologyNode {
-  uint64_t reference_count;  // below it
-  bool is_leaf;
+  Box box;
+  uint32_t first;       // a leaf's first reference, an inner node's pair of children
+  uint32_t count : 31;  // references below it; of an inner node 2^31 - 1 at most
+  uint32_t is_leaf : 1;
 };
 
-struct InnerNode : TopologyNode {
-  const TopologyNode* child[2];
-  Box box[2];  // the children's
+// Siblings, side by side in a cache line.
+struct alignas(64) NodePair {
+  TopologyNode child[2];
+
+  uint32_t count() const {  // of the node above
+    return static_cast<uint32_t>(
+        std::min<uint64_t>(uint64_t{child[0].count} + child[1].count, INT32_MAX));
+  }
+};
+static_assert(sizeof(NodePair) == 64);
+
+// What lies in leaves: triangles, by rising index within a leaf. Where a spatial split cut one, the
+// box of the part that is meant.
+struct References {
+  std::span<const uint32_t> primitives;
+  std::span<const Box> boxes;  // none where all are whole triangles
+
+  References part(uint64_t first, uint64_t count) const {
+    return {primitives.subspan(first, count), boxes.empty() ? boxes : boxes.subspan(first, count)};
+  }
 };
 
-struct LeafNode : TopologyNode {
-  const Reference* references;  // by rising primitive, then box
+// Pairs lie depth first: what is below a node is one range, parents before children.
+struct BinaryNodes {
+  TopologyNode root{};
+  Array<NodePair> pairs;
+  Array<uint32_t> primitives;
+  Array<Box> boxes;  // none without spatial splits
 };
 
-// Owns the nodes, in Embree's memory.
+// Medium quality is made by the library's own builder, the others by Embree's.
 class Topology {
  public:
   // Progress runs from 0 to `progress_end`. Errors: OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED,
-  // INTERNAL. The same for any number of threads.
+  // INTERNAL. The same for any number of threads and any instruction set.
   Topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler, Memory& memory,
-           Progress& progress, double progress_end, const Frame& frame = Frame());
-  ~Topology();
-  Topology(const Topology&) = delete;
-  Topology& operator=(const Topology&) = delete;
+           Progress& progress, double progress_end, const Frame& frame = Frame(),
+           sobb_isa isa = SOBB_ISA_BEST);
 
-  const TopologyNode* root() const { return root_; }
+  const TopologyNode& root() const { return nodes_.root; }
+  const TopologyNode& child(const TopologyNode& node, int side) const {
+    return nodes_.pairs[node.first].child[side];
+  }
+  std::span<const NodePair> pairs() const { return nodes_.pairs; }
+  References references() const { return {nodes_.primitives, nodes_.boxes}; }
 
  private:
-  struct Builder;  // keeps Embree out of this header
-
-  std::unique_ptr<Builder> builder_;
-  const TopologyNode* root_ = nullptr;
+  BinaryNodes nodes_;
 };
 
 }  // namespace sobb

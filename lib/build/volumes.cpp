@@ -35,9 +35,10 @@ struct NodeBases {
 
 class VolumeMaker {
  public:
-  VolumeMaker(const Mesh& mesh, const VolumeSettings& settings, const ImageParts& parts,
-              std::pmr::memory_resource& memory)
+  VolumeMaker(const Mesh& mesh, const References& references, const VolumeSettings& settings,
+              const ImageParts& parts, std::pmr::memory_resource& memory)
       : mesh_(mesh),
+        references_(references),
         settings_(settings),
         parts_(parts),
         kernels_(bounds_kernels(settings.isa)),
@@ -61,8 +62,8 @@ class VolumeMaker {
       Bounded leaf[kMaxWidth];
       const Bounded* child[kMaxWidth] = {};
       for (uint32_t i = 0; i < wide.child_count; ++i) {
-        if (wide.child[i]->is_leaf) {
-          make_leaf(*static_cast<const LeafNode*>(wide.child[i]), wide.index[i], leaf[i]);
+        if (wide.is_leaf(i)) {
+          make_leaf(references_.part(wide.first[i], wide.count[i]), wide.index[i], leaf[i]);
           child[i] = &leaf[i];
         } else {
           const Bounded* below = subtree_of(static_cast<uint32_t>(at), i);
@@ -89,19 +90,18 @@ class VolumeMaker {
 
   // Of the leaves that are the node's children.
   template <class Body>
-  static void for_each_triangle(const WideNode& wide, const Body& body) {
+  void for_each_triangle(const WideNode& wide, const Body& body) const {
     for (uint32_t i = 0; i < wide.child_count; ++i) {
-      if (!wide.child[i]->is_leaf) continue;
-      const auto& leaf = *static_cast<const LeafNode*>(wide.child[i]);
-      for (uint64_t j = 0; j < leaf.reference_count; ++j) body(leaf.references[j].primitive);
+      for (uint32_t j = 0; j < wide.count[i]; ++j) body(references_.primitives[wide.first[i] + j]);
     }
   }
 
-  void make_leaf(const LeafNode& leaf, uint32_t block, Bounded& bounded) const {
+  void make_leaf(const References& leaf, uint32_t block, Bounded& bounded) const {
+    const uint64_t block_count = blocks_of(leaf.primitives.size());
     fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop, frame_);
-    std::fill_n(&parts_.blocks[block], blocks_of(leaf.reference_count), TriangleBlock{});
-    write_blocks(mesh_, leaf, &parts_.blocks[block]);
-    bounded.cost = kBlockCost * static_cast<float>(blocks_of(leaf.reference_count));
+    std::fill_n(&parts_.blocks[block], block_count, TriangleBlock{});
+    write_blocks(mesh_, leaf.primitives, &parts_.blocks[block]);
+    bounded.cost = kBlockCost * static_cast<float>(block_count);
     find_basis(bounded);
   }
 
@@ -133,9 +133,7 @@ class VolumeMaker {
       }
       node.reference[i] = wide.index[i];
       node.basis[i] = bases.basis[i];
-      if (wide.child[i]->is_leaf) {
-        node.meta[i] = static_cast<uint16_t>(kLeafBit | wide.child[i]->reference_count);
-      }
+      if (wide.is_leaf(i)) node.meta[i] = static_cast<uint16_t>(kLeafBit | wide.count[i]);
     }
     node.meta[0] |= static_cast<uint16_t>(wide.child_count << kChildCountShift);
     if (bases.shared) node.meta[0] |= kSharedBit;
@@ -186,6 +184,7 @@ class VolumeMaker {
   }
 
   const Mesh& mesh_;
+  References references_;
   VolumeSettings settings_;
   ImageParts parts_;
   const BoundsKernels& kernels_;
@@ -226,7 +225,7 @@ void make_volumes_of(const VolumeMaker& maker, const WideTopology& wide, const S
 void make_volumes(const Mesh& mesh, const WideTopology& wide, const VolumeSettings& settings,
                   const ImageParts& parts, const Scheduler& scheduler, Memory& memory,
                   Progress& progress, double progress_begin) {
-  const VolumeMaker maker(mesh, settings, parts, memory);
+  const VolumeMaker maker(mesh, wide.references, settings, parts, memory);
   if (parts.header->width == 4) {
     make_volumes_of<4>(maker, wide, scheduler, memory, progress, progress_begin);
   } else {

@@ -111,7 +111,7 @@ class NodesOf final : public Hierarchy::Nodes {
   };
 
   void fit_leaf(const WideNode& wide, uint32_t child, Known& leaf) const {
-    const uint64_t count = wide.child[child]->reference_count;
+    const uint64_t count = wide.count[child];
     leaf.range = {wide.index[child], wide.index[child] + blocks_of(count)};
     RelativePoint points[3 * kMaxLeafReferences];
     uint64_t point_count = 0;
@@ -129,8 +129,8 @@ class NodesOf final : public Hierarchy::Nodes {
                    std::span<const BlockRange> ranges, Node& node) const {
     node.children.set(child, V::fit(tables_, hull, {layout_.blocks().data(), ranges}));
     node.reference[child] = wide.index[child];
-    if (wide.child[child]->is_leaf) {
-      node.meta[child] = static_cast<uint16_t>(kLeafBit | wide.child[child]->reference_count);
+    if (wide.is_leaf(child)) {
+      node.meta[child] = static_cast<uint16_t>(kLeafBit | wide.count[child]);
     }
   }
 
@@ -146,8 +146,8 @@ class NodesOf final : public Hierarchy::Nodes {
       Node& node = *new (&nodes_[part.first_node + at]) Node{};
       for (uint32_t i = 0; i < wide.child_count; ++i) {
         Known leaf;
-        if (wide.child[i]->is_leaf) fit_leaf(wide, i, leaf);
-        const Known& child = wide.child[i]->is_leaf ? leaf : known[wide.index[i] - part.first_node];
+        if (wide.is_leaf(i)) fit_leaf(wide, i, leaf);
+        const Known& child = wide.is_leaf(i) ? leaf : known[wide.index[i] - part.first_node];
         write_child(wide, i, child.hull, {&child.range, 1}, node);
         if (i == 0) {
           known[at] = child;
@@ -180,7 +180,7 @@ class NodesOf final : public Hierarchy::Nodes {
         TopChild& child = children[at * W + i];
         const bool has_subtree = subtree > 0 && wide.places[subtree - 1].node == at &&
                                  wide.places[subtree - 1].child == i;
-        if (has_subtree || node.child[i]->is_leaf) {
+        if (has_subtree || node.is_leaf(i)) {
           Known leaf;
           if (!has_subtree) fit_leaf(node, i, leaf);
           const Known& known = has_subtree ? roots[--subtree] : leaf;

@@ -16,27 +16,28 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Calls visit(leaf, its first block) for every leaf of a part.
+// Calls visit(its references, its first block) for every leaf of a part.
 template <class Visit>
-void for_leaves(const Part& part, const Visit& visit) {
+void for_leaves(const Part& part, const References& references, const Visit& visit) {
   for (const WideNode& node : part.nodes) {
     for (uint32_t i = 0; i < node.child_count; ++i) {
-      if (!node.child[i]->is_leaf) continue;
-      visit(*static_cast<const LeafNode*>(node.child[i]), node.index[i]);
+      if (!node.is_leaf(i)) continue;
+      visit(references.part(node.first[i], node.count[i]), node.index[i]);
     }
   }
 }
 
-std::unique_ptr<SharedTopology::Layout> make_layout(const Mesh& mesh, const TopologyNode& root,
+std::unique_ptr<SharedTopology::Layout> make_layout(const Mesh& mesh, const Topology& topology,
                                                     uint32_t width, const Scheduler& scheduler,
                                                     const std::shared_ptr<Memory>& memory) {
   const auto start = Clock::now();
-  auto layout = std::make_unique<SharedTopology::Layout>(collapse(root, width, scheduler, *memory));
+  auto layout =
+      std::make_unique<SharedTopology::Layout>(collapse(topology, width, scheduler, *memory));
   layout->block_bytes = Image::allocate(memory, layout->wide.block_count * sizeof(TriangleBlock));
   auto* blocks = reinterpret_cast<TriangleBlock*>(layout->block_bytes.bytes().data());
   const auto write = [&](const Part& part) {
-    for_leaves(part, [&](const LeafNode& leaf, uint32_t block) {
-      write_blocks(mesh, leaf, blocks + block);
+    for_leaves(part, layout->wide.references, [&](const References& leaf, uint32_t block) {
+      write_blocks(mesh, leaf.primitives, blocks + block);
     });
   };
   scheduler.for_each(layout->wide.subtrees.size(),
@@ -48,9 +49,9 @@ std::unique_ptr<SharedTopology::Layout> make_layout(const Mesh& mesh, const Topo
 
 uint64_t count_leaves(const WideTopology& wide) {
   uint64_t count = 0;
-  const auto add = [&](const LeafNode&, uint32_t) { ++count; };
-  for_leaves(wide.top, add);
-  for (const Part& part : wide.subtrees) for_leaves(part, add);
+  const auto add = [&](const References&, uint32_t) { ++count; };
+  for_leaves(wide.top, wide.references, add);
+  for (const Part& part : wide.subtrees) for_leaves(part, wide.references, add);
   return count;
 }
 
@@ -66,8 +67,8 @@ SharedTopology::SharedTopology(const sobb_triangles& triangles, const Scheduler&
   topology_ = std::make_unique<Topology>(mesh_, SOBB_QUALITY_MEDIUM, scheduler, *memory_, progress,
                                          /*progress_end=*/1);
   topology_ms_ = ms_since(start);
-  binary_ = make_layout(mesh_, *topology_->root(), 2, scheduler, memory_);
-  eight_wide_ = make_layout(mesh_, *topology_->root(), 8, scheduler, memory_);
+  binary_ = make_layout(mesh_, *topology_, 2, scheduler, memory_);
+  eight_wide_ = make_layout(mesh_, *topology_, 8, scheduler, memory_);
   leaf_count_ = count_leaves(binary_->wide);
 }
 

@@ -39,12 +39,12 @@ class SharedTopology {
   };
   const Layout& layout(uint32_t width) const;  // 2 or 8
 
-  double topology_ms() const { return topology_ms_; }  // boxes and rtcBuildBVH
+  double topology_ms() const { return topology_ms_; }  // boxes and binary nodes
   double layout_ms(uint32_t width) const { return layout(width).ms; }
   uint32_t depth(uint32_t width) const { return layout(width).wide.depth; }
   uint64_t node_count(uint32_t width) const { return layout(width).wide.node_count; }
   uint64_t leaf_count() const { return leaf_count_; }
-  uint64_t reference_count() const { return topology_->root()->reference_count; }
+  uint64_t reference_count() const { return topology_->root().count; }
 
   const Mesh& mesh() const { return mesh_; }
   const MeshSummary& summary() const { return summary_; }

@@ -31,54 +31,88 @@ struct Tree {
         topology(mesh, quality, scheduler, memory, progress, 1) {}
 };
 
-bool same(const TopologyNode* a, const TopologyNode* b) {
-  if (a->is_leaf != b->is_leaf || a->reference_count != b->reference_count) return false;
-  if (a->is_leaf) {
-    const Reference* of_a = static_cast<const LeafNode*>(a)->references;
-    const Reference* of_b = static_cast<const LeafNode*>(b)->references;
-    return std::equal(of_a, of_a + a->reference_count, of_b,
-                      [](const Reference& x, const Reference& y) {
-                        return x.primitive == y.primitive && x.box == y.box;
-                      });
+bool same(const Topology& a, const TopologyNode& of_a, const Topology& b,
+          const TopologyNode& of_b) {
+  if (!(of_a.box == of_b.box) || of_a.first != of_b.first || of_a.count != of_b.count ||
+      of_a.is_leaf != of_b.is_leaf) {
+    return false;
   }
-  const auto* inner_a = static_cast<const InnerNode*>(a);
-  const auto* inner_b = static_cast<const InnerNode*>(b);
-  for (int i = 0; i < 2; ++i) {
-    if (!(inner_a->box[i] == inner_b->box[i])) return false;
-    if (!same(inner_a->child[i], inner_b->child[i])) return false;
+  if (!of_a.is_leaf) {
+    return same(a, a.child(of_a, 0), b, b.child(of_b, 0)) &&
+           same(a, a.child(of_a, 1), b, b.child(of_b, 1));
+  }
+  const References in_a = a.references().part(of_a.first, of_a.count);
+  const References in_b = b.references().part(of_b.first, of_b.count);
+  return std::equal(in_a.primitives.begin(), in_a.primitives.end(), in_b.primitives.begin()) &&
+         std::equal(in_a.boxes.begin(), in_a.boxes.end(), in_b.boxes.begin(), in_b.boxes.end());
+}
+
+bool holds(const Box& outer, const Box& inner) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(outer.lower[k] <= inner.lower[k] && inner.upper[k] <= outer.upper[k])) return false;
   }
   return true;
 }
 
-// Walks down; collects references, checks counts.
-uint64_t collect(const TopologyNode* node, std::vector<Reference>& references) {
-  uint64_t count = 0;
-  if (node->is_leaf) {
-    const auto* leaf = static_cast<const LeafNode*>(node);
-    EXPECT_GE(leaf->reference_count, 1u);
-    EXPECT_LE(leaf->reference_count, kMaxLeafReferences);
-    references.insert(references.end(), leaf->references, leaf->references + leaf->reference_count);
-    count = leaf->reference_count;
-  } else {
-    for (const TopologyNode* child : static_cast<const InnerNode*>(node)->child) {
-      count += collect(child, references);
+// What a walk down a tree has met.
+struct Walk {
+  std::vector<uint32_t> met;  // how often, by reference
+  uint32_t next_pair = 0;     // pairs come depth first
+};
+
+// Checks counts, boxes and the order of pairs.
+void check(const Topology& topology, const TopologyNode& node, const std::vector<Box>& boxes,
+           Walk& walk) {
+  if (node.is_leaf) {
+    ASSERT_GE(node.count, 1u);
+    ASSERT_LE(node.count, kMaxLeafReferences);
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      ++walk.met.at(i);
+      ASSERT_TRUE(holds(node.box, boxes[i]));
+      const auto primitives = topology.references().primitives;
+      if (i > node.first) {
+        ASSERT_LT(primitives[i - 1], primitives[i]);
+      }
     }
+    return;
   }
-  EXPECT_EQ(node->reference_count, count);
-  return count;
+  ASSERT_EQ(node.first, walk.next_pair++);
+  ASSERT_EQ(node.count, topology.child(node, 0).count + topology.child(node, 1).count);
+  for (int side = 0; side < 2; ++side) {
+    ASSERT_TRUE(holds(node.box, topology.child(node, side).box));
+    check(topology, topology.child(node, side), boxes, walk);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+// Of all references: a part's, or a whole triangle's. Void where a leaf made parts one again.
+std::vector<Box> boxes_of(const Tree& tree) {
+  const References references = tree.topology.references();
+  std::vector<Box> boxes;
+  for (size_t i = 0; i < references.primitives.size(); ++i) {
+    boxes.push_back(references.boxes.empty() ? Corners(tree.mesh, references.primitives[i]).box()
+                                             : references.boxes[i]);
+  }
+  return boxes;
 }
 
 TEST(Topology, HoldsEveryPointOfEveryTriangle) {
-  for (const Soup& soup : {random_soup(1, 3000), random_soup(2, 400, 1.5), sliver_soup(3, 1000),
-                           degenerate_soup(4, 500), random_soup(5, 1), identical_soup(100)}) {
+  for (const Soup& soup :
+       {random_soup(1, 3000), random_soup(2, 400, 1.5), sliver_soup(3, 1000),
+        degenerate_soup(4, 500), random_soup(5, 1), identical_soup(100), random_soup(9, 20'000)}) {
     for (const sobb_quality quality : kQualities) {
       SCOPED_TRACE(soup.name + " quality " + std::to_string(quality));
       const Tree tree(soup, quality, 1);
-      std::vector<Reference> references;
-      collect(tree.topology.root(), references);
+      const auto primitives = tree.topology.references().primitives;
+      const std::vector<Box> all = boxes_of(tree);
+      Walk walk{std::vector<uint32_t>(primitives.size())};
+      check(tree.topology, tree.topology.root(), all, walk);
+      if (HasFatalFailure()) return;
+      EXPECT_EQ(walk.next_pair, tree.topology.pairs().size());
+      EXPECT_EQ(std::count(walk.met.begin(), walk.met.end(), 1u), tree.topology.root().count);
       std::vector<std::vector<Box>> boxes(tree.mesh.triangle_count());
-      for (const Reference& reference : references) {
-        boxes.at(reference.primitive).push_back(reference.box);
+      for (size_t i = 0; i < all.size(); ++i) {
+        if (walk.met[i] == 1) boxes.at(primitives[i]).push_back(all[i]);
       }
       for (uint64_t t = 0; t < boxes.size(); ++t) {
         const Corners corners(tree.mesh, t);
@@ -102,18 +136,18 @@ TEST(Topology, HoldsEveryPointOfEveryTriangle) {
 TEST(Topology, SpatialSplitsCutLargeTriangles) {
   const Tree medium(random_soup(6, 500, 1.5), SOBB_QUALITY_MEDIUM, 1);
   const Tree high(random_soup(6, 500, 1.5), SOBB_QUALITY_HIGH, 1);
-  EXPECT_EQ(medium.topology.root()->reference_count, 500u);
-  EXPECT_GT(high.topology.root()->reference_count, 500u);
+  EXPECT_EQ(medium.topology.root().count, 500u);
+  EXPECT_GT(high.topology.root().count, 500u);
 }
 
 TEST(Topology, IsTheSameForAnyThreadCount) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
-  for (const Soup& soup : {random_soup(7, 8'000), sliver_soup(8, 4'000), identical_soup(10'000)}) {
+  for (const Soup& soup : {random_soup(7, 30'000), sliver_soup(8, 4'000), identical_soup(10'000)}) {
     for (const sobb_quality quality : kQualities) {
       const Tree one(soup, quality, 1);
       for (const uint32_t threads : {2, 3, 8}) {
         const Tree other(soup, quality, threads);
-        EXPECT_TRUE(same(one.topology.root(), other.topology.root()))
+        EXPECT_TRUE(same(one.topology, one.topology.root(), other.topology, other.topology.root()))
             << soup.name << " quality " << quality << " threads " << threads;
       }
     }

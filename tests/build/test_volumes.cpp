@@ -173,15 +173,13 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Leaf, OfReferencesThatMissTheirBoxes) {
   const Soup soup{"triangle", {0, 0, 0, 1, 0, 1, 0, 1, 1}, {0, 1, 2}};  // z = x + y
   const Mesh mesh(soup.view(), Scheduler(1, nullptr));
-  const Reference reference = {{{0.3F, 0.5F, 0.5F}, {0.5F, 0.7F, 0.7F}}, 0};
-  LeafNode leaf;
-  leaf.reference_count = 1;
-  leaf.is_leaf = true;
-  leaf.references = &reference;
+  const uint32_t primitive = 0;
+  const Box box = {{0.3F, 0.5F, 0.5F}, {0.5F, 0.7F, 0.7F}};
   const DirectionTable directions = make_direction_table(default_directions(64));
   const float centre[3] = {0.5F, 0.5F, 0.5F};
   Kdop kdop;
-  fit_leaf(mesh, leaf, directions, centre, bounds_kernels(SOBB_ISA_SSE4), kdop);
+  fit_leaf(mesh, {{&primitive, 1}, {&box, 1}}, directions, centre, bounds_kernels(SOBB_ISA_SSE4),
+           kdop);
   for (uint32_t k = 0; k < directions.count; ++k) {
     EXPECT_LE(kdop.lower[k], kdop.upper[k]);
     EXPECT_LT(std::max(-kdop.lower[k], kdop.upper[k]), 1);

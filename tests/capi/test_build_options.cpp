@@ -213,7 +213,7 @@ TEST(BuildMemory, KeepsTheLimit) {
   for (const uint32_t quality : kQualities) {
     sobb_build_options options = build_options(0, quality);
     const uint64_t peak = info_of(build_soup(soup, options)).peak_bytes;
-    for (const uint64_t limit : {uint64_t{1}, uint64_t{1000}, uint64_t{1} << 16, uint64_t{1} << 20,
+    for (const uint64_t limit : {uint64_t{1}, uint64_t{1000}, uint64_t{1} << 16, uint64_t{1} << 18,
                                  peak / 4, peak / 2, peak * 3 / 4, peak - 1}) {
       CountingAllocator counting;
       const sobb_allocator allocator = counting.callback();

@@ -41,7 +41,7 @@ TEST_P(CountingTrace, HitsWhatBruteForceHits) {
   const Mesh mesh(triangles, scheduler);
   const MeshSummary summary = summarise(mesh, scheduler, memory);
   const Topology topology(mesh, SOBB_QUALITY_MEDIUM, scheduler, memory, progress, 1);
-  const Tree tree = make_tree(*topology.root(), GetParam(), scheduler, memory);
+  const Tree tree = make_tree(topology, GetParam(), scheduler, memory);
   const auto directions = default_directions(64);
   const DirectionTable table = make_direction_table(directions);
   const float centre[3] = {summary.centre.x, summary.centre.y, summary.centre.z};

@@ -38,7 +38,7 @@ PointSet points_of(const test::Soup& soup) {
   Progress progress(nullptr, nullptr);
   const Mesh mesh(soup.view(), scheduler);
   const Topology topology(mesh, SOBB_QUALITY_MEDIUM, scheduler, memory, progress, 1);
-  return {mesh, *topology.root(), Box{{0, 0, 0}, {1, 1, 1}}};
+  return {mesh, topology, topology.root()};
 }
 
 TEST(FreeNormals, WidthsAreThoseOfTheCorners) {

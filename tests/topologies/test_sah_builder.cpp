@@ -49,7 +49,7 @@ TEST(SahBuilder, KeepsEveryTriangle) {
     for (const SahSettings& settings : all) {
       BinaryTree tree;
       for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
-        tree.references.push_back({Corners(mesh, i).box(), i});
+        tree.references.push_back({i});
       }
       SahBuilder(measure, tangents, settings).build(tree);
       expect_whole(tree, mesh.triangle_count(), settings.leaf_limit);
@@ -66,7 +66,7 @@ TEST(FibreSplit, ClustersByOrientation) {
   for (uint32_t i = 0; i < 20; ++i) {
     const double tilt = 0.01 * i;
     tangents.push_back(i % 2 == 0 ? Vector{1, tilt, 0} : Vector{0, tilt, -1});
-    references.push_back({{}, i});
+    references.push_back({i});
   }
   const auto split = split_fibres(references, tangents);
   ASSERT_TRUE(split.has_value());

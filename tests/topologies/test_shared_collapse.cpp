@@ -24,7 +24,7 @@ TEST(SharedCollapse, KeepsEveryTriangleAndTheLimits) {
     const AreaMeasure measure(mesh, summarise(mesh, scheduler, memory), memory);
     BinaryTree tree;
     for (uint32_t i = 0; i < mesh.triangle_count(); ++i) {
-      tree.references.push_back({Corners(mesh, i).box(), i});
+      tree.references.push_back({i});
     }
     SahBuilder(measure, no_fibres, {SOBB_VOLUME_SOBB, 3, false, 1}).build(tree);
     for (const Leaves leaves : {Leaves::kKept, Leaves::kChosen}) {
@@ -35,9 +35,9 @@ TEST(SharedCollapse, KeepsEveryTriangleAndTheLimits) {
         EXPECT_GE(node.child_count, 2U);
         EXPECT_LE(node.child_count, kMaxWidth);
         for (uint32_t i = 0; i < node.child_count; ++i) {
-          if (!node.child[i]->is_leaf) continue;
-          EXPECT_LE(node.child[i]->reference_count, leaves == Leaves::kKept ? 1 : 8);
-          triangles += node.child[i]->reference_count;
+          if (!node.is_leaf(i)) continue;
+          EXPECT_LE(node.count[i], leaves == Leaves::kKept ? 1 : 8);
+          triangles += node.count[i];
         }
       }
       EXPECT_EQ(triangles, mesh.triangle_count());

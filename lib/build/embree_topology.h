@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// The binary hierarchy by Embree's builder: in Morton order, or with spatial splits.
+#pragma once
+
+#include "build/topology.h"
+
+namespace sobb {
+
+// As Topology has it.
+BinaryNodes embree_topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler,
+                            Memory& memory, Progress& progress, double progress_end,
+                            const Frame& frame);
+
+}  // namespace sobb
