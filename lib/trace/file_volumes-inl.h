@@ -24,6 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <int W, bool kAxes>
 struct FileVolumes {
   static constexpr int kWidth = W;
+  static constexpr bool kAxesOnly = kAxes;
   using Node = sobb::Node<W>;
   using Ray = RayTable;
 

@@ -12,6 +12,7 @@
 
 #include "trace/file_volumes-inl.h"
 #include "trace/packet-inl.h"
+#include "trace/stream-inl.h"
 #include "trace/trace_rays-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,13 +79,31 @@ uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t cou
   return invalid;
 }
 
+template <Query kQuery, class Result>
+uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint32_t count, Result* results,
+                     void* memory) {
+  auto& batch = *new (memory) StreamBatch;
+  const auto with = [&](auto volumes) HWY_ATTR {
+    return trace_stream<decltype(volumes), kQuery>(tracer, rays, count, results, batch);
+  };
+  if (tracer.width == 4) {
+    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
+  }
+  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
+}
+
 }  // namespace
 
 const TraceKernels& target_trace_kernels() {
-  static constexpr TraceKernels kKernels = {
-      trace<Query::kClosest, sobb_hit>,          trace<Query::kAny, uint8_t>,
-      trace_coherent<Query::kClosest, sobb_hit>, trace_coherent<Query::kAny, uint8_t>,
-      trace_16<Query::kClosest, sobb_hit>,       trace_16<Query::kAny, uint8_t>};
+  static constexpr TraceKernels kKernels = {sizeof(StreamBatch),
+                                            trace_batch<Query::kClosest, sobb_hit>,
+                                            trace_batch<Query::kAny, uint8_t>,
+                                            trace<Query::kClosest, sobb_hit>,
+                                            trace<Query::kAny, uint8_t>,
+                                            trace_coherent<Query::kClosest, sobb_hit>,
+                                            trace_coherent<Query::kAny, uint8_t>,
+                                            trace_16<Query::kClosest, sobb_hit>,
+                                            trace_16<Query::kAny, uint8_t>};
   return kKernels;
 }
 

@@ -2,6 +2,7 @@
 // What tracing needs of a hierarchy, and its entry points by instruction set.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "bounds/direction_table.h"
@@ -29,9 +30,19 @@ struct Tracer : TraceScene {
 
 inline constexpr int kPacketSize = 16;
 
+// Rays of a batch, at most: enough for long lists, few enough for a cache of the second level.
+inline constexpr uint32_t kBatchRays = 2048;
+
 // The kernels of one instruction set. Each returns how many rays were not valid. `counts` may be
 // null.
 struct TraceKernels {
+  // A batch of rays that need not be coherent, with `batch_bytes` of memory, aligned to 64.
+  size_t batch_bytes;
+  uint64_t (*intersect_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
+                              sobb_hit* hits, void* memory);
+  uint64_t (*occluded_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
+                             uint8_t* occluded, void* memory);
+  // Ray by ray.
   uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                         sobb_count* counts);
   uint64_t (*occluded)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,

@@ -6,6 +6,7 @@
 #include "../guard.h"
 #include "base/isa.h"
 #include "base/scheduler.h"
+#include "base/scratch_pool.h"
 #include "hierarchy.h"
 #include "trace/oracle.h"
 
@@ -15,8 +16,10 @@ using sobb::require;
 
 namespace {
 
-// Rays a task: enough to drown its cost, few enough to balance rays that differ.
-constexpr uint64_t kGrain = 1024;
+// Rays a task. A batch is enough to drown its cost, and few enough to balance rays that differ.
+constexpr uint64_t kGrain = sobb::kBatchRays;
+// Fewer rays are not worth a batch's memory.
+constexpr uint64_t kFewestInBatch = 256;
 
 sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   const sobb_trace_options known = sobb::read_options(options, "trace options");
@@ -26,29 +29,59 @@ sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   return known;
 }
 
+// The kernels of an array call.
+template <class Result>
+struct ArrayKernels {
+  uint64_t (*single)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
+  uint64_t (*coherent)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*);
+  uint64_t (*batch)(const sobb::Tracer&, const sobb_ray*, uint32_t, Result*, void*);
+  size_t batch_bytes;
+};
+
+ArrayKernels<sobb_hit> array_kernels(const sobb::TraceKernels& kernels, const sobb_hit*) {
+  return {kernels.intersect, kernels.intersect_coherent, kernels.intersect_batch,
+          kernels.batch_bytes};
+}
+
+ArrayKernels<uint8_t> array_kernels(const sobb::TraceKernels& kernels, const uint8_t*) {
+  return {kernels.occluded, kernels.occluded_coherent, kernels.occluded_batch, kernels.batch_bytes};
+}
+
 // Checks the arguments of an array call, shares the array among threads, adds up the invalid rays.
-template <class Result, class Trace, class TraceCoherent>
+template <class Result>
 void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
-                 Result* results, const sobb_trace_options* options,
-                 Trace(sobb::TraceKernels::*trace), TraceCoherent(sobb::TraceKernels::*coherent)) {
+                 Result* results, const sobb_trace_options* options) {
   require(hierarchy, "hierarchy");
   const sobb_trace_options known = read_trace_options(options);
-  const sobb::TraceKernels& kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
+  const auto kernels = array_kernels(sobb::trace_kernels(sobb::resolve_isa(known.isa)), results);
   if (count != 0) {
     require(rays, "rays");
     require(results, "results");
   }
-  const bool packets = (known.flags & SOBB_TRACE_COHERENT) != 0 && known.counts == nullptr;
+  const sobb::Tracer& tracer = hierarchy->tracer;
+  const bool coherent = (known.flags & SOBB_TRACE_COHERENT) != 0;
+  sobb::ScratchPool pool(*hierarchy->memory, kernels.batch_bytes);
   const sobb::Scheduler scheduler(known.threads, known.scheduler);
   std::atomic<uint64_t> invalid{0};
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
-    if (packets) {
-      invalid += (kernels.*coherent)(hierarchy->tracer, rays + begin, end - begin, results + begin);
-    } else {
-      sobb_count* counts = known.counts == nullptr ? nullptr : known.counts + begin;
-      invalid +=
-          (kernels.*trace)(hierarchy->tracer, rays + begin, end - begin, results + begin, counts);
+    const uint64_t size = end - begin;
+    if (known.counts != nullptr) {
+      invalid += kernels.single(tracer, rays + begin, size, results + begin, known.counts + begin);
+      return;
     }
+    if (coherent) {
+      invalid += kernels.coherent(tracer, rays + begin, size, results + begin);
+      return;
+    }
+    if (size >= kFewestInBatch) {
+      const sobb::ScratchPool::Lease lease(pool);
+      if (lease.get() != nullptr) {
+        invalid += kernels.batch(tracer, rays + begin, static_cast<uint32_t>(size), results + begin,
+                                 lease.get());
+        return;
+      }
+    }
+    invalid += kernels.single(tracer, rays + begin, size, results + begin, nullptr);
   });
   if (known.invalid_rays != nullptr) *known.invalid_rays = invalid;
 }
@@ -69,18 +102,12 @@ extern "C" {
 
 sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
                            sobb_hit* hits, const sobb_trace_options* options) {
-  return guard([&] {
-    trace_array(hierarchy, rays, count, hits, options, &sobb::TraceKernels::intersect,
-                &sobb::TraceKernels::intersect_coherent);
-  });
+  return guard([&] { trace_array(hierarchy, rays, count, hits, options); });
 }
 
 sobb_status sobb_occluded(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
                           uint8_t* occluded, const sobb_trace_options* options) {
-  return guard([&] {
-    trace_array(hierarchy, rays, count, occluded, options, &sobb::TraceKernels::occluded,
-                &sobb::TraceKernels::occluded_coherent);
-  });
+  return guard([&] { trace_array(hierarchy, rays, count, occluded, options); });
 }
 
 sobb_status sobb_intersect1(const sobb_hierarchy* hierarchy, const sobb_ray* ray, sobb_hit* hit) {

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// An array of rays that need not be coherent: a batch of them goes through the nodes together, each
+// node visited once for all rays of an octant that meet it (R. Barringer, T. Akenine-Moller,
+// "Dynamic Ray Stream Traversal", 2014; V. Fuetterling et al., "Efficient Ray Tracing Kernels for
+// Modern CPU Architectures", 2015). What is left of a list further down goes on ray by ray. The
+// octants take turns, a visit each, so that what a visit asks memory for has the others' visits to
+// arrive. Included once for each Highway target.
+#if defined(SOBB_TRACE_STREAM_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_STREAM_INL_H
+#undef SOBB_TRACE_STREAM_INL_H
+#else
+#define SOBB_TRACE_STREAM_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "trace/file_volumes-inl.h"
+#include "trace/single-inl.h"
+#include "trace/stream_node-inl.h"
+#include "trace/trace_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// From this many rays on a list pays.
+inline constexpr uint32_t kListRays = 4;
+
+// The rays of a list that have no hit nearer than it, packed. Returns how many.
+HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit) {
+  const hn::CappedTag<RayEntry, 8> du;
+  const hn::RebindToFloat<decltype(du)> d;
+  const hn::RebindToSigned<decltype(du)> di;
+  constexpr uint32_t kLanes = hn::MaxLanes(du);
+  uint32_t open = 0;
+  uint32_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    const auto entries = hn::LoadU(du, list + i);
+    const auto rays = hn::BitCast(di, hn::AndNot(hn::Set(du, kEntryDistance), entries));
+    const auto distance = hn::BitCast(d, hn::And(entries, hn::Set(du, kEntryDistance)));
+    const auto kept = hn::Le(distance, hn::GatherIndex(d, limit, rays));
+    open += store_packed(entries, mask_bits(d, kept), list + open);
+  }
+  for (; i < count; ++i) {
+    const RayEntry entry = list[i];
+    list[open] = entry;
+    open += entry_distance(entry) <= limit[entry_ray(entry)] ? 1 : 0;
+  }
+  return open;
+}
+
+// Traces the rays of one octant after another's step.
+template <class Volumes, Query kQuery>
+class StreamTracer {
+  static constexpr int W = Volumes::kWidth;
+  static constexpr bool kAxes = Volumes::kAxesOnly;
+
+ public:
+  StreamTracer(const TraceScene& scene, StreamBatch& batch)
+      : scene_(scene), nodes_(static_cast<const Node<W>*>(scene.nodes)), batch_(batch) {}
+
+  // Visits what is next. Returns whether there is more.
+  HWY_INLINE bool step(Stream& stream) {
+    const StreamItem& item = stream.item[--stream.top];
+    const StackKey key = item.key;
+    const uint32_t begin = item.begin;
+    const uint32_t count = item.count;
+    if (count != 0) {
+      visit_list(stream, key, begin, count);
+    } else if (entry_distance(begin) <= batch_.limit[entry_ray(begin)]) {
+      if (key_is_leaf(key)) {
+        test_triangles(key, entry_ray(begin));
+      } else {
+        const RayEntry one = begin;
+        visit_node(stream, nodes_[key_index(key)], &one, 1, 0);
+      }
+    }
+    return stream.top != 0;
+  }
+
+ private:
+  HWY_INLINE void test_triangles(StackKey key, uint32_t ray) {
+    if (test_leaf<kQuery>(batch_.block_ray(ray), scene_.blocks + key_index(key), key_triangles(key),
+                          batch_.best(ray))) {
+      batch_.shorten<kQuery>(ray);
+    }
+  }
+
+  HWY_INLINE void visit_list(Stream& stream, StackKey key, uint32_t begin, uint32_t count) {
+    RayEntry* list = stream.arena + begin;
+    const uint32_t open = keep_open(list, count, batch_.limit);
+    if (open == 0) return;
+    if (key_is_leaf(key)) {
+      for (uint32_t i = 0; i < open; ++i) test_triangles(key, entry_ray(list[i]));
+      return;
+    }
+    // The children's lists may be W times as long. Where there is no room for that, the rest of
+    // this one waits.
+    const uint32_t room = (stream.capacity - begin - open) / W;
+    const uint32_t taken = std::min(open, std::max(room, kListRays - 1));
+    const uint32_t rest = open - taken;
+    if (rest != 0) push(stream, key, begin, rest);
+    visit_node(stream, nodes_[key_index(key)], list + rest, taken, begin + rest);
+  }
+
+  static HWY_INLINE void push(Stream& stream, StackKey key, uint32_t begin, uint32_t count) {
+    stream.item[stream.top++] = {key, begin, count};
+  }
+
+  // Rays that meet a node; their children's lists go to the arena from `begin` on.
+  HWY_INLINE void visit_node(Stream& stream, const Node<W>& node, const RayEntry* rays,
+                             uint32_t count, uint32_t begin) {
+    const bool shared = kAxes || (node.meta[0] & kSharedBit) != 0;
+    if (kAxes || (shared && node.basis[0] == kAxesBasis)) {
+      visit(stream, node, rays, count, begin, FrameNode<W>(batch_, node, stream.octant));
+    } else if (shared) {
+      visit(stream, node, rays, count, begin, SharedNode<W>(scene_, batch_, node));
+    } else {
+      visit(stream, node, rays, count, begin, OwnNode<W>(scene_, batch_, node));
+    }
+  }
+
+  template <class EntriesOf>
+  HWY_INLINE void visit(Stream& stream, const Node<W>& node, const RayEntry* rays, uint32_t count,
+                        uint32_t begin, const EntriesOf& entries_of) {
+    if (count >= kListRays) {
+      visit_together(stream, node, rays, count, begin, entries_of);
+      return;
+    }
+    for (uint32_t i = 0; i < count; ++i) visit_alone(stream, node, entry_ray(rays[i]), entries_of);
+  }
+
+  // The children that one ray meets, the nearest on top.
+  template <class EntriesOf>
+  HWY_INLINE void visit_alone(Stream& stream, const Node<W>& node, uint32_t ray,
+                              const EntriesOf& entries_of) {
+    const ChildEntries<W> d;
+    alignas(64) RayEntry entry[W];
+    uint32_t met = 0;
+    for (size_t first = 0; first < W; first += hn::MaxLanes(d)) {
+      const auto entries = entries_of(ray, first);
+      hn::Store(entries, d, entry + first);
+      met |= met_bits(entries) << first;
+    }
+    met &= (1U << child_count(node)) - 1;
+    StreamItem* const base = stream.item + stream.top;
+    StreamItem* top = base;
+    for (; met != 0; met &= met - 1) {
+      const auto child = static_cast<uint32_t>(std::countr_zero(met));
+      const StackKey key = make_key(0, node.meta[child], node.reference[child]);
+      prefetch<Node<W>>(scene_, key);
+      StreamItem* at = top++;
+      for (; at != base && at[-1].begin < entry[child]; --at) *at = at[-1];
+      *at = {key, entry[child], 0};
+    }
+    stream.top += static_cast<uint32_t>(top - base);
+  }
+
+  // The children that rays of a list meet, on top the one whose nearest ray is nearest.
+  template <class EntriesOf>
+  HWY_INLINE void visit_together(Stream& stream, const Node<W>& node, const RayEntry* rays,
+                                 uint32_t count, uint32_t begin, const EntriesOf& entries_of) {
+    ChildLists<W> lists;
+    for (int i = 0; i < W; ++i) lists.list[i] = batch_.list[i];
+    const uint32_t children = child_count(node);
+    fill_lists<W>(rays, count, children, entries_of, lists);
+
+    uint64_t order[W];  // the nearest entry, the child
+    uint32_t met = 0;
+    for (uint32_t child = 0; child < children; ++child) {
+      if (lists.count[child] == 0) continue;
+      const uint64_t key = uint64_t{lists.nearest[child]} << 32 | child;
+      uint32_t at = met++;
+      for (; at != 0 && order[at - 1] < key; --at) order[at] = order[at - 1];
+      order[at] = key;
+    }
+    for (uint32_t i = 0; i < met; ++i) {
+      const auto child = static_cast<uint32_t>(order[i]);
+      const StackKey key = make_key(0, node.meta[child], node.reference[child]);
+      prefetch<Node<W>>(scene_, key);
+      copy_list(lists.list[child], lists.count[child], stream.arena + begin);
+      push(stream, key, begin, lists.count[child]);
+      begin += lists.count[child];
+    }
+  }
+
+  static HWY_INLINE void copy_list(const RayEntry* from, uint32_t count, RayEntry* to) {
+    const hn::CappedTag<RayEntry, 8> d;
+    for (uint32_t i = 0; i < count; i += hn::MaxLanes(d))
+      hn::StoreU(hn::LoadU(d, from + i), d, to + i);
+  }
+
+  const TraceScene& scene_;
+  const Node<W>* nodes_;
+  StreamBatch& batch_;
+};
+
+// Gives each octant its rays: the root's list.
+inline void begin_streams(const uint32_t (&count)[kOctants], StreamBatch& batch) {
+  RayEntry* arena = batch.arena;
+  for (uint32_t octant = 0; octant < kOctants; ++octant) {
+    Stream& stream = batch.stream[octant];
+    stream.octant = octant;
+    stream.arena = arena;
+    stream.capacity = StreamBatch::kArena * count[octant];
+    arena += stream.capacity + StreamBatch::kSlack;
+    std::copy_n(batch.list[octant], count[octant], stream.arena);
+    stream.item[0] = {kRootKey, 0, count[octant]};
+    stream.top = count[octant] == 0 ? 0 : 1;
+  }
+}
+
+// Makes the batch of the valid rays. Returns how many of each octant there are, in its lists.
+template <class Result>
+HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
+                               Result* results, StreamBatch& batch,
+                               uint32_t (&octant_count)[kOctants]) {
+  uint32_t invalid = 0;
+  for (uint32_t i = 0; i < count; ++i) {
+    if (!is_valid(rays[i])) {
+      store_invalid(results[i]);
+      ++invalid;
+      continue;
+    }
+    batch.set(scene, rays[i], i);
+    const uint32_t octant = batch.ray[i].octant();
+    batch.list[octant][octant_count[octant]++] = i;
+  }
+  return invalid;
+}
+
+// At most kBatchRays of them. Returns how many were not valid.
+template <class Volumes, Query kQuery, class Result>
+uint64_t trace_stream(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
+                      Result* results, StreamBatch& batch) {
+  uint32_t octant_count[kOctants] = {};
+  const uint32_t invalid = fill_batch(scene, rays, count, results, batch, octant_count);
+  begin_streams(octant_count, batch);
+  uint32_t active[kOctants];
+  uint32_t active_count = 0;
+  for (uint32_t octant = 0; octant < kOctants; ++octant) {
+    if (octant_count[octant] != 0) active[active_count++] = octant;
+  }
+  StreamTracer<Volumes, kQuery> tracer(scene, batch);
+  while (active_count != 0) {
+    for (uint32_t i = 0; i < active_count;) {
+      if (tracer.step(batch.stream[active[i]])) {
+        ++i;
+      } else {
+        active[i] = active[--active_count];
+      }
+    }
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    if (is_valid(rays[i])) store(batch.best(i), results[i]);
+  }
+  return invalid;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif

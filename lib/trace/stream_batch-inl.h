@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rays of a batch as the stream traversal reads them, and the memory that it takes. Included
+// once for each Highway target.
+#if defined(SOBB_TRACE_STREAM_BATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_STREAM_BATCH_INL_H
+#undef SOBB_TRACE_STREAM_BATCH_INL_H
+#else
+#define SOBB_TRACE_STREAM_BATCH_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <new>
+
+#include "trace/ray_entry.h"
+#include "trace/ray_table-inl.h"
+#include "trace/scaled_ray.h"
+#include "trace/stack_key.h"
+#include "trace/triangle_block-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr uint32_t kOctants = 8;
+
+// What node tests read of a ray: the first three directions' coefficients (ray_table-inl.h), and
+// what those of other directions are made of.
+struct alignas(64) StreamRay {
+  float reciprocal[4];
+  float near[4];
+  float far[4];
+  float origin[3];
+  float tmin;
+  float direction[3];
+  float error;
+  float scale;
+
+  // The signs of the first three directions' cosines, which say which planes are the near ones.
+  uint32_t octant() const {
+    uint32_t bits = 0;
+    for (int k = 0; k < 3; ++k) bits |= std::bit_cast<uint32_t>(reciprocal[k]) >> 31 << k;
+    return bits;
+  }
+};
+
+// Something to visit: a node or leaf, and the rays that meet it; or one ray, which needs no list.
+struct StreamItem {
+  StackKey key;    // without a distance
+  uint32_t begin;  // of the list, in the arena; of one ray: its entry
+  uint32_t count;  // 0 for one ray
+};
+
+// Rays of one octant on their way through the hierarchy.
+struct Stream {
+  // Every level leaves seven children behind, and perhaps a part of its own list; one of them may
+  // be where the lists end, at three rays with eight children each.
+  static constexpr uint32_t kMaxItems = kMaxDepth * 8 + 3 * 8;
+
+  RayEntry* arena;    // the lists of the items, one after another
+  uint32_t capacity;  // of the arena
+  uint32_t octant;
+  uint32_t top;  // of the items
+  StreamItem item[kMaxItems];
+};
+
+// All that a batch needs, one block of memory a thread.
+struct StreamBatch {
+  // Entries that a list may write past its end: a vector.
+  static constexpr uint32_t kSlack = 8;
+  // Arena entries for each ray of a stream. With fewer, lists are visited in parts.
+  static constexpr uint32_t kArena = 16;
+
+  StreamRay ray[kBatchRays];
+  float limit[kBatchRays];  // in scaled units; negative once an any-hit ray is done
+  Stream stream[kOctants];
+  RayEntry list[kOctants][kBatchRays + kSlack];  // by child, while a node is visited
+  RayEntry arena[kArena * kBatchRays + kOctants * kSlack];
+  // Made ray by ray, since neither has a default.
+  alignas(BlockRay) uint8_t block_rays[kBatchRays][sizeof(BlockRay)];
+  alignas(ClosestHit) uint8_t hits[kBatchRays][sizeof(ClosestHit)];
+
+  BlockRay& block_ray(uint32_t i) {
+    return *std::launder(reinterpret_cast<BlockRay*>(block_rays[i]));
+  }
+  ClosestHit& best(uint32_t i) { return *std::launder(reinterpret_cast<ClosestHit*>(hits[i])); }
+
+  void set(const TraceScene& scene, const sobb_ray& from, uint32_t i) {
+    new (hits[i]) ClosestHit(from);
+    new (block_rays[i]) BlockRay(from);
+    const ScaledRay scaled(scene, from);
+    limit[i] = scale_limit(best(i).limit, scaled.scale);
+    StreamRay& to = ray[i];
+    const hn::CappedTag<float, 4> d;
+    const DirectionTable& directions = scene.directions;
+    const auto c = slab_coefficients(
+        d, hn::Load(d, directions.x), hn::Load(d, directions.y), hn::Load(d, directions.z),
+        hn::Set(d, scaled.origin[0]), hn::Set(d, scaled.origin[1]), hn::Set(d, scaled.origin[2]),
+        hn::Set(d, scaled.direction[0]), hn::Set(d, scaled.direction[1]),
+        hn::Set(d, scaled.direction[2]), hn::Set(d, scaled.error));
+    hn::Store(c.reciprocal, d, to.reciprocal);
+    hn::Store(c.near, d, to.near);
+    hn::Store(c.far, d, to.far);
+    for (int k = 0; k < 3; ++k) {
+      to.origin[k] = scaled.origin[k];
+      to.direction[k] = scaled.direction[k];
+    }
+    to.tmin = scaled.tmin;
+    to.error = scaled.error;
+    to.scale = scaled.scale;
+  }
+
+  // After a hit was taken.
+  template <Query kQuery>
+  void shorten(uint32_t i) {
+    limit[i] = kQuery == Query::kAny ? -1.0F : scale_limit(best(i).limit, ray[i].scale);
+  }
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif
