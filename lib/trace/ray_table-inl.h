@@ -54,11 +54,15 @@ HWY_INLINE SlabCoefficients<V> slab_coefficients(D d, V nx, V ny, V nz, V ox, V 
   return {r, hn::Neg(hn::Add(offset, slack)), hn::Sub(slack, offset)};
 }
 
-// For one ray: by direction.
+// For one ray: by direction, one vector of four each, so that a lookup is one load.
 struct RayTable {
-  alignas(64) float reciprocal[kMaxDirections];
-  alignas(64) float near[kMaxDirections];
-  alignas(64) float far[kMaxDirections];
+  struct Entry {
+    float reciprocal;
+    float near;
+    float far;
+    float unused;
+  };
+  alignas(64) Entry entry[kMaxDirections];
 
   HWY_INLINE RayTable(const TraceScene& scene, const ScaledRay& ray) {
     const DirectionTable& directions = scene.directions;
@@ -69,9 +73,7 @@ struct RayTable {
           hn::Load(d, directions.z + k), hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
           hn::Set(d, ray.origin[2]), hn::Set(d, ray.direction[0]), hn::Set(d, ray.direction[1]),
           hn::Set(d, ray.direction[2]), hn::Set(d, ray.error));
-      hn::Store(c.reciprocal, d, reciprocal + k);
-      hn::Store(c.near, d, near + k);
-      hn::Store(c.far, d, far + k);
+      hn::StoreInterleaved4(c.reciprocal, c.near, c.far, hn::Zero(d), d, &entry[k].reciprocal);
     }
   }
 };

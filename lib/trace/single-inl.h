@@ -106,6 +106,24 @@ HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>&
   return nearest;
 }
 
+// The same in the node's order, which a query for any hit is as good with.
+template <int W, class Node>
+HWY_INLINE StackKey push_but_first(const TraceScene& scene, const NodeHits<W>& hits,
+                                   const Node& node, StackKey*& top) {
+  uint32_t mask = hits.mask;
+  const auto next_key = [&]() HWY_ATTR {
+    const auto child = static_cast<uint32_t>(std::countr_zero(mask));
+    mask &= mask - 1;
+    return make_key(0, node.meta[child], node.reference[child]);
+  };
+  const StackKey first = next_key();
+  for (; mask != 0; ++top) {
+    *top = next_key();
+    prefetch<Node>(scene, *top);
+  }
+  return first;
+}
+
 // A ray as traversals read it, whichever way they go.
 template <class Volumes>
 struct PreparedRay {
@@ -138,7 +156,8 @@ HWY_INLINE void traverse_from(const TraceScene& scene, const PreparedRay<Volumes
       test_node<Volumes>(ray.volume_ray, node, ray.scaled.tmin, limit, hits);
       counter.add_node(child_count(node));
       met = hits.mask != 0;
-      if (met) key = push_but_nearest(scene, hits, node, top);
+      if (met && kQuery == Query::kAny) key = push_but_first(scene, hits, node, top);
+      if (met && kQuery == Query::kClosest) key = push_but_nearest(scene, hits, node, top);
     }
     if (met) {
       counter.add_leaf(key_triangles(key));

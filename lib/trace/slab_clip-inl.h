@@ -45,42 +45,43 @@ template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], uint32_t direction,
                             size_t first, V& near, V& far) {
   const ChildFloats<W> d;
-  clip_slab<W>({hn::Set(d, table.reciprocal[direction]), hn::Set(d, table.near[direction]),
-                hn::Set(d, table.far[direction])},
-               slab, first, near, far);
+  const RayTable::Entry& entry = table.entry[direction];
+  clip_slab<W>({hn::Set(d, entry.reciprocal), hn::Set(d, entry.near), hn::Set(d, entry.far)}, slab,
+               first, near, far);
 }
 
-// What the table has for the j-th direction of each child's own basis.
+// Entries of four children, each child's in a block of 128 bits, as vectors over the children.
+// In every block that V has: rows a, b, c, d of (r, n, f, -) become columns.
+template <class V, class D = hn::DFromV<V>>
+HWY_INLINE SlabCoefficients<V> transpose(D d, V a, V b, V c, V e) {
+  const hn::Repartition<uint64_t, D> pairs;
+  const auto low_ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));  // r r n n
+  const auto low_cd = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
+  const auto high_ab = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));  // f f - -
+  const auto high_cd = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
+  return {hn::BitCast(d, hn::InterleaveLower(pairs, low_ab, low_cd)),
+          hn::BitCast(d, hn::InterleaveUpper(pairs, low_ab, low_cd)),
+          hn::BitCast(d, hn::InterleaveLower(pairs, high_ab, high_cd))};
+}
+
+// What the table has for the j-th direction of each child's own basis. Loads and shuffles:
+// with them hair traces 17 % more rays, 8-wide, than with gathers.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE SlabCoefficients<V> look_up(const RayTable& table, const uint16_t* basis, int j) {
+  const hn::CappedTag<float, 4> d4;
+  const auto entry = [&](int child) HWY_ATTR {
+    return hn::Load(d4, &table.entry[basis_direction(basis[child], j)].reciprocal);
+  };
   const ChildFloats<W> d;
-  if constexpr (hn::MaxLanes(d) == 8) {
-    // Permutations of the table's vectors, of 8 directions each: three bits of an index say which
-    // lane, the two above which vector.
-    const hn::RebindToUnsigned<decltype(d)> du;
-    const hn::Rebind<uint16_t, decltype(d)> d16;
-    const auto bases = hn::PromoteTo(du, hn::LoadU(d16, basis));
-    const auto index =
-        hn::IndicesFromVec(d, hn::And(hn::ShiftRightSame(bases, 5 * j), hn::Set(du, 7)));
-    const auto second = hn::MaskFromVec(hn::BitCast(d, hn::ShiftLeftSame(bases, 28 - 5 * j)));
-    const auto upper = hn::MaskFromVec(hn::BitCast(d, hn::ShiftLeftSame(bases, 27 - 5 * j)));
-    const auto of = [&](const float* values) HWY_ATTR {
-      const auto part = [&](int k) HWY_ATTR {
-        return hn::TableLookupLanes(hn::Load(d, values + 8 * k), index);
-      };
-      return hn::IfThenElse(upper, hn::IfThenElse(second, part(3), part(2)),
-                            hn::IfThenElse(second, part(1), part(0)));
-    };
-    return {of(table.reciprocal), of(table.near), of(table.far)};
+  if constexpr (W == 2) {
+    const auto low = hn::InterleaveLower(d4, entry(0), entry(1));
+    const auto high = hn::InterleaveUpper(d4, entry(0), entry(1));
+    return {hn::LowerHalf(d, low), hn::UpperHalf(d, low), hn::LowerHalf(d, high)};
+  } else if constexpr (hn::MaxLanes(d) == 4) {
+    return transpose(d, entry(0), entry(1), entry(2), entry(3));
   } else {
-    alignas(16) float values[3][hn::MaxLanes(d)];
-    for (size_t i = 0; i < hn::MaxLanes(d); ++i) {
-      const uint32_t k = basis_direction(basis[i], j);
-      values[0][i] = table.reciprocal[k];
-      values[1][i] = table.near[k];
-      values[2][i] = table.far[k];
-    }
-    return {hn::Load(d, values[0]), hn::Load(d, values[1]), hn::Load(d, values[2])};
+    return transpose(d, hn::Combine(d, entry(4), entry(0)), hn::Combine(d, entry(5), entry(1)),
+                     hn::Combine(d, entry(6), entry(2)), hn::Combine(d, entry(7), entry(3)));
   }
 }
 
