@@ -73,4 +73,16 @@ struct Corners {
   }
 };
 
+// The box of a triangle: of its corners as they are where the frame is the mesh's own.
+inline Box box_of(const Mesh& mesh, uint64_t triangle, const Frame& frame) {
+  if (frame.is_turned()) return Corners(mesh, triangle, frame).box();
+  const Point a = mesh.corner(triangle, 0);
+  const Point b = mesh.corner(triangle, 1);
+  const Point c = mesh.corner(triangle, 2);
+  return {{std::min(std::min(a.x, b.x), c.x), std::min(std::min(a.y, b.y), c.y),
+           std::min(std::min(a.z, b.z), c.z)},
+          {std::max(std::max(a.x, b.x), c.x), std::max(std::max(a.y, b.y), c.y),
+           std::max(std::max(a.z, b.z), c.z)}};
+}
+
 }  // namespace sobb

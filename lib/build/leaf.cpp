@@ -20,18 +20,19 @@ void fit_leaf(const Mesh& mesh, const References& leaf, const DirectionTable& di
   RelativePoint points[9 * kMaxLeafReferences];
   uint64_t count = 0;
   for (size_t i = 0; i < leaf.primitives.size(); ++i) {
-    const Corners corners(mesh, leaf.primitives[i], frame);
-    double polygon[9][3];
-    int polygon_count = 0;
-    if (leaf.boxes.empty() || leaf.boxes[i] == corners.box()) {
-      for (; polygon_count < 3; ++polygon_count) {
-        const double* corner = corners.point[polygon_count];
-        std::copy(corner, corner + 3, polygon[polygon_count]);
+    const uint32_t primitive = leaf.primitives[i];
+    if (leaf.boxes.empty() || leaf.boxes[i] == box_of(mesh, primitive, frame)) {
+      for (int j = 0; j < 3; ++j) {
+        const Point p = mesh.corner(primitive, j);
+        const double point[3] = {p.x, p.y, p.z};
+        points[count++] = relative(point, centre);
       }
     } else {
-      polygon_count = clip_to_box(corners, leaf.boxes[i], polygon);
+      double polygon[9][3];
+      const int polygon_count =
+          clip_to_box(Corners(mesh, primitive, frame), leaf.boxes[i], polygon);
+      for (int j = 0; j < polygon_count; ++j) points[count++] = relative(polygon[j], centre);
     }
-    for (int j = 0; j < polygon_count; ++j) points[count++] = relative(polygon[j], centre);
   }
   if (count == 0) {
     // Every reference's box misses its triangle: nothing can be hit here, but a volume there is.

@@ -31,7 +31,7 @@ namespace sobb {
 
 Binning make_binning(const Centres& centres, uint64_t count) {
   Binning binning = {};
-  binning.count = static_cast<uint32_t>(std::min<uint64_t>(kMaxBins, 4 + count / 4));
+  binning.count = static_cast<uint32_t>(std::min<uint64_t>(kMaxBins, 4 + count / 16));
   for (int k = 0; k < 3; ++k) {
     const float extent = centres.upper[k] - centres.lower[k];
     // Just below the count, so that the last bin is never passed.

@@ -18,7 +18,7 @@ BinaryNodes own_topology(const Mesh& mesh, const Scheduler& scheduler, Memory& m
   Array<SahReference> other(count, memory);
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
-      references[i] = SahReference::of(Corners(mesh, i, frame).box(), static_cast<uint32_t>(i));
+      references[i] = SahReference::of(box_of(mesh, i, frame), static_cast<uint32_t>(i));
     }
   });
   BinaryNodes nodes;
