@@ -117,9 +117,10 @@ HWY_INLINE StackKey push_but_first(const TraceScene& scene, const NodeHits<W>& h
     return make_key(0, node.meta[child], node.reference[child]);
   };
   const StackKey first = next_key();
-  for (; mask != 0; ++top) {
-    *top = next_key();
-    prefetch<Node>(scene, *top);
+  while (mask != 0) {
+    const StackKey key = next_key();
+    prefetch<Node>(scene, key);
+    *top++ = key;
   }
   return first;
 }
