@@ -7,6 +7,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trace/kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -32,7 +33,8 @@ uint64_t trace(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Resul
   return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
 }
 
-// Rays of a packet: those that are coherent together, in up to a few groups, the others alone.
+// Rays of a packet: those that are coherent together, in a few groups, then of a large packet what
+// is left in small ones, of a small one ray by ray.
 template <int kSize, Query kQuery, class Result>
 uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint64_t mask, Result* results) {
   uint64_t left = mask;
@@ -52,6 +54,15 @@ uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint64_t mask,
     left &= ~traced;
   }
   uint64_t invalid = 0;
+  if constexpr (kSize > kPacketSize) {
+    constexpr uint64_t kPart = ~uint64_t{0} >> (64 - kPacketSize);
+    for (int first = 0; first < kSize; first += kPacketSize) {
+      const uint64_t part = left >> first & kPart;
+      if (part == 0) continue;
+      invalid += trace_packet<kPacketSize, kQuery>(tracer, rays + first, part, results + first);
+    }
+    return invalid;
+  }
   while (left != 0) {
     const int first = std::countr_zero(left);
     const int count = std::countr_one(left >> first);
@@ -73,6 +84,9 @@ uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t cou
   uint64_t invalid = 0;
   for (uint64_t first = 0; first < count; first += 64) {
     const uint64_t size = std::min<uint64_t>(64, count - first);
+    for (uint64_t next = first + 64; next < std::min(first + 128, count); next += 2) {
+      hwy::Prefetch(rays + next);
+    }
     invalid += trace_packet<64, kQuery>(tracer, rays + first, ~uint64_t{0} >> (64 - size),
                                         results + first);
   }

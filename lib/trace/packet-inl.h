@@ -42,18 +42,28 @@ HWY_INLINE uint32_t meet_child(const PacketRays<kSize>& rays, const PacketTable&
                     hn::MulAdd(hn::Set(d, node.slab[j][1 - falls][child]),
                                hn::Load(d, e.far_scale + lane), hn::Load(d, e.far_offset + lane)));
     }
-    met |= bits_of(d, hn::Le(near, far)) << lane;
+    met |= mask_bits(d, hn::Le(near, far)) << lane;
   }
   return met;
 }
 
-// A child to visit: of which node, from which depth on, and the lanes that met the node.
-struct PacketEntry {
-  float near;
-  uint32_t node;
-  uint32_t child;
-  uint32_t lanes;
-};
+// A child to visit, ordered by depth:
+//   bits 43-63  the least depth's exponent and upper 13 mantissa bits (it is not negative)
+//   bits 35-42  the lanes that met the child's node
+//   bits 32-34  the child;  bits 0-31  its node
+using PacketKey = uint64_t;
+constexpr PacketKey kNoPacketKey = ~PacketKey{0};
+
+HWY_INLINE PacketKey make_packet_key(float near, uint32_t lanes, uint32_t child, uint32_t node) {
+  return static_cast<PacketKey>(std::bit_cast<uint32_t>(near) >> 10) << 43 |
+         static_cast<PacketKey>(lanes << 3 | child) << 32 | node;
+}
+HWY_INLINE float packet_key_depth(PacketKey key) {
+  return std::bit_cast<float>(static_cast<uint32_t>(key >> 43) << 10);
+}
+constexpr uint32_t packet_key_lanes(PacketKey key) { return key >> 35 & 0xFF; }
+constexpr uint32_t packet_key_child(PacketKey key) { return key >> 32 & 7; }
+constexpr uint32_t packet_key_node(PacketKey key) { return static_cast<uint32_t>(key); }
 
 // The children that a lane, or the packet as a whole, may meet, and from which depth on.
 template <int W, int kSize>
@@ -80,9 +90,7 @@ HWY_INLINE uint32_t meet_children(const TraceScene& scene, const PacketRays<kSiz
             far, hn::MulAdd(hn::Load(d, node.slab[j][1 - falls] + first),
                             hn::Set(d, e.far_scale[column]), hn::Set(d, e.far_offset[column])));
       }
-      uint8_t bits[8] = {};
-      hn::StoreMaskBits(d, hn::Le(near, far), bits);
-      met |= static_cast<uint32_t>(bits[0]) << first;
+      met |= mask_bits(d, hn::Le(near, far)) << first;
       hn::Store(near, d, nearest + first);
     }
     return met & ((1U << count) - 1);
@@ -118,37 +126,59 @@ HWY_INLINE void prefetch_child(const TraceScene& scene, const Node<W>* nodes, co
   for (size_t line = 0; line < sizeof(Node<W>); line += 64) hwy::Prefetch(bytes + line);
 }
 
+// Children visited for each ray after which
+constexpr int kMostVisits = 12;
+
+// Returns false if it gave up, since the rays meet more than they would one by one.
 template <int W, Query kQuery, int kSize>
-HWY_INLINE void traverse(const TraceScene& scene, PacketRays<kSize>& rays, uint32_t lanes) {
+HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize>& rays, uint32_t lanes) {
   PacketTable table;
   const auto* nodes = static_cast<const Node<W>*>(scene.nodes);
-  PacketEntry stack[kMaxDepth * (W - 1) + 2];
-  PacketEntry* top = stack;
+  PacketKey stack[kMaxDepth * (W - 1) + 1];
+  PacketKey* top = stack;
   uint32_t index = 0;
+  int left = kMostVisits * kSize;
   for (;;) {
     const Node<W>& node = nodes[index];
     const bool one_lane = (lanes & (lanes - 1)) == 0;
     const uint32_t column = one_lane ? static_cast<uint32_t>(std::countr_zero(lanes)) : kAllLanes;
     alignas(64) float nearest[W];
-    PacketEntry* const base = top;
-    for (uint32_t met = meet_children(scene, rays, table, node, column, nearest); met != 0;
-         met &= met - 1) {
+    uint32_t met = meet_children(scene, rays, table, node, column, nearest);
+    PacketKey key = kNoPacketKey;
+    if (std::has_single_bit(met)) {
       const auto child = static_cast<uint32_t>(std::countr_zero(met));
-      const float near = nearest[child];
-      prefetch_child(scene, nodes, node, child);
-      PacketEntry* at = top++;
-      for (; at != base && at[-1].near < near; --at) *at = at[-1];
-      *at = {near, index, child, lanes};
+      const uint32_t reference = node.reference[child];
+      if ((node.meta[child] & kLeafBit) == 0) {
+        index = reference;
+        continue;
+      }
+      test_leaf<kQuery>(rays, scene.blocks + reference, node.meta[child] & kTriangleMask, lanes);
+    } else {
+      PacketKey* const base = top;
+      for (; met != 0; met &= met - 1) {
+        const auto child = static_cast<uint32_t>(std::countr_zero(met));
+        prefetch_child(scene, nodes, node, child);
+        PacketKey other = make_packet_key(nearest[child], lanes, child, index);
+        if (other < key) std::swap(other, key);
+        if (other == kNoPacketKey) continue;
+        PacketKey* at = top++;
+        for (; at != base && at[-1] < other; --at) *at = at[-1];
+        *at = other;
+      }
     }
-    for (;;) {
-      if (top == stack) return;
-      const PacketEntry entry = *--top;
-      if (entry.near > rays.lane_far[kAllLanes]) continue;
-      const Node<W>& parent = nodes[entry.node];
-      lanes = entry.lanes & meet_child(rays, table, parent, entry.child);
+    for (;; key = kNoPacketKey) {
+      if (key == kNoPacketKey) {
+        if (top == stack) return true;
+        key = *--top;
+      }
+      if (packet_key_depth(key) > rays.lane_far[kAllLanes]) continue;
+      if (--left == 0) return false;
+      const Node<W>& parent = nodes[packet_key_node(key)];
+      const uint32_t child = packet_key_child(key);
+      lanes = packet_key_lanes(key) & meet_child(rays, table, parent, child);
       if (lanes == 0) continue;
-      const uint32_t meta = parent.meta[entry.child];
-      index = parent.reference[entry.child];
+      const uint32_t meta = parent.meta[child];
+      index = parent.reference[child];
       if ((meta & kLeafBit) == 0) break;
       test_leaf<kQuery>(rays, scene.blocks + index, meta & kTriangleMask, lanes);
     }
@@ -177,7 +207,7 @@ HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* ra
   if (!(packet.centred.error < INFINITY)) return 0;
   const uint64_t taken = packet.take(rays, mask);
   constexpr int kFewest = kSize / 8;
-  constexpr float kWidest = 0.25F;
+  constexpr float kWidest = 0.02F;
   if (std::popcount(taken) < kFewest) return 0;
   if (packet.spread[0] + packet.spread[1] > kWidest) return 0;
   uint32_t lanes = 0;
@@ -185,7 +215,7 @@ HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* ra
     constexpr int kRun = PacketRays<kSize>::kRun;
     lanes |= static_cast<uint32_t>((taken >> (lane * kRun) & ((1U << kRun) - 1)) != 0) << lane;
   }
-  traverse<W, kQuery>(scene, packet, lanes);
+  if (!traverse<W, kQuery>(scene, packet, lanes)) return 0;
   for (uint64_t left = taken; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(left));
     store(packet, i, results[i]);

@@ -17,6 +17,7 @@
 
 #include <bit>
 
+#include "trace/mask_bits-inl.h"
 #include "trace/scaled_ray.h"
 #include "trace/triangle_test.h"
 
@@ -32,12 +33,6 @@ using RayWords = hn::RebindToUnsigned<RayFloats>;
 
 constexpr int kPacketLanes = 8;
 constexpr int kAllLanes = kPacketLanes;  // index of what is of the whole packet, behind the lanes
-
-HWY_INLINE uint32_t bits_of(RayFloats d, hn::Mask<RayFloats> mask) {
-  uint8_t bits[8] = {};
-  hn::StoreMaskBits(d, mask, bits);
-  return bits[0];
-}
 
 // t in units of depth, rounded to the safe side. The slack is for denormal t.
 template <class V>
@@ -107,6 +102,27 @@ struct PacketRays {
   }
 };
 
+// From values by ray to values by place in the run, in any order, then lane: evens go before odds
+// until a lane has one value.
+template <int kCount>
+HWY_INLINE void spread_runs(const float* from, float* to) {
+  const RayFloats d;
+  constexpr int kStep = hn::MaxLanes(RayFloats());
+  constexpr int kHalf = kCount / 2;
+  alignas(64) float parts[kCount];
+  float* out = kHalf == kPacketLanes ? to : parts;
+  for (int i = 0; i < kHalf; i += kStep) {
+    const auto a = hn::Load(d, from + 2 * i);
+    const auto b = hn::Load(d, from + 2 * i + kStep);
+    hn::Store(hn::ConcatEven(d, b, a), d, out + i);
+    hn::Store(hn::ConcatOdd(d, b, a), d, out + kHalf + i);
+  }
+  if constexpr (kHalf > kPacketLanes) {
+    spread_runs<kHalf>(parts, to);
+    spread_runs<kHalf>(parts + kHalf, to + kHalf);
+  }
+}
+
 template <int kSize>
 uint64_t PacketRays<kSize>::take(const sobb_ray* rays, uint64_t mask) {
   const RayFloats d;
@@ -150,7 +166,7 @@ uint64_t PacketRays<kSize>::take(const sobb_ray* rays, uint64_t mask) {
                       : frame.axis[2] == 1 ? y_z
                                            : hn::Not(hn::Or(x_z, y_z));
     const auto fits = hn::And(hn::And(same, finite), hn::And(times, hn::And(forward, axis)));
-    taken |= static_cast<uint64_t>(bits_of(d, fits)) << i;
+    taken |= static_cast<uint64_t>(mask_bits(d, fits)) << i;
   }
   taken &= mask;
 
@@ -201,15 +217,13 @@ uint64_t PacketRays<kSize>::take(const sobb_ray* rays, uint64_t mask) {
   const hn::CappedTag<double, 4> dd;
   const hn::Rebind<float, decltype(dd)> df;
   for (int k = 0; k < 2; ++k) {
+    spread_runs<kSize>(slope[k], lane_slope[k][0]);
     const auto middle = hn::Set(dd, centre[k] * sign);
     for (size_t i = 0; i < kSize; i += hn::Lanes(dd)) {
       const auto z = hn::PromoteTo(dd, hn::Load(df, direction[frame.axis[2]] + i));
       const auto s = hn::Div(hn::PromoteTo(dd, hn::Load(df, direction[frame.axis[k]] + i)), z);
       hn::Store(s, dd, shear[k] + i);
       hn::Store(z, dd, direction_z + i);
-      for (size_t j = 0; j < hn::Lanes(dd); ++j) {
-        lane_slope[k][(i + j) % kRun][(i + j) / kRun] = slope[k][i + j];
-      }
       hn::Store(hn::DemoteTo(df, hn::Mul(hn::Sub(s, middle), hn::Set(dd, sign))), df, slope[k] + i);
     }
   }

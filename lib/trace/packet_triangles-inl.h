@@ -5,12 +5,12 @@
 // Vertices are projected along the packet's central ray. For a ray whose slopes differ by
 // (a, b) from its, the edge function of vertices i, j is linear in them, for the origin is shared:
 //   x_i y_j - y_i x_j + a (y_i z_j - z_i y_j) + b (z_i x_j - x_i z_j)
-// so a ray costs two multiply-adds an edge. With M at least the distance from the origin to any
-// vertex, u = 2^-24, m the largest projected coordinate, and a, b at most r:
-//   x, y err by at most h = 4 u M,
-//   the constant by 4 h m + 2 h^2 + 3 u m^2, the factors of a and b by 2 h M + 5 u m M,
-//   the sum's rounding is 4 u m^2 + 12 u r m M, the deciding test's own 8 u M (m + r M):
-// together less than u M (96 m + 32 r M + 64 u M).
+// so a ray costs two multiply-adds an edge. With u = 2^-24, z the largest depth of a vertex, m its
+// largest projected coordinate, c the largest central slope, a and b at most r, and g = m + r z,
+// which no coordinate projected along a ray exceeds:
+//   projected coordinates err by at most h = u (3 c z + 3 m + 2 r z), edge functions for it by
+//   4 h g + 2 h^2; rounding the factors and the sum adds 26 u m g, the deciding test's own 4 u g^2:
+// together less than u g (16 c z + 48 g) + 64 u^2 z^2. What underflows errs by less than 2^-120.
 #if defined(SOBB_TRACE_PACKET_TRIANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_PACKET_TRIANGLES_INL_H
 #undef SOBB_TRACE_PACKET_TRIANGLES_INL_H
@@ -84,19 +84,22 @@ struct PacketBlock {
     }
     const V largest_x = hn::Max(hn::Max(hn::Abs(x[0]), hn::Abs(x[1])), hn::Abs(x[2]));
     const V largest_y = hn::Max(hn::Max(hn::Abs(y[0]), hn::Abs(y[1])), hn::Abs(y[2]));
-    const float u_reach = 0x1p-24F * rays.centred.reach;
+    const V front = hn::Min(hn::Min(z[0], z[1]), z[2]);
+    const V back = hn::Max(hn::Max(z[0], z[1]), z[2]);
+    const V depth = hn::Max(hn::Abs(front), hn::Abs(back));
+    constexpr float kUnit = 0x1p-24F;
     const float r = std::max(rays.spread[0], rays.spread[1]);
-    const V e = hn::MulAdd(hn::Set(d, 96 * u_reach), hn::Max(largest_x, largest_y),
-                           hn::Set(d, u_reach * (32 * r * rays.centred.reach + 64 * u_reach)));
+    const float c = std::max(std::abs(rays.centre[0]), std::abs(rays.centre[1]));
+    const V g = hn::MulAdd(depth, hn::Set(d, r), hn::Max(largest_x, largest_y));
+    const V slack = hn::Mul(depth, hn::Set(d, 8 * kUnit));
+    const V factor = hn::MulAdd(g, hn::Set(d, 48 * kUnit), hn::Mul(slack, hn::Set(d, 2 * c)));
+    const V e = hn::MulAdd(g, factor, hn::MulAdd(slack, slack, hn::Set(d, 0x1p-120F)));
     hn::Store(e, d, error);
-    const V slack = hn::Set(d, 8 * u_reach);
-    const V front = hn::Sub(hn::Min(hn::Min(z[0], z[1]), z[2]), slack);
-    const V back = hn::Add(hn::Max(hn::Max(z[0], z[1]), z[2]), slack);
-    hn::Store(front, d, near);
-    hn::Store(back, d, far);
+    hn::Store(hn::Sub(front, slack), d, near);
+    hn::Store(hn::Add(back, slack), d, far);
     const auto outside = hn::And(hn::Lt(least_high, hn::Neg(e)), hn::Gt(most_low, e));
-    const auto beyond = hn::Gt(front, hn::Set(d, rays.lane_far[kAllLanes]));
-    const auto before = hn::Lt(back, hn::Set(d, rays.lane_near[kAllLanes]));
+    const auto beyond = hn::Gt(hn::Load(d, near), hn::Set(d, rays.lane_far[kAllLanes]));
+    const auto before = hn::Lt(hn::Load(d, far), hn::Set(d, rays.lane_near[kAllLanes]));
     return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & 0xF;
   }
 
@@ -119,14 +122,16 @@ struct PacketBlock {
     const auto beyond = hn::Gt(hn::Set(d, near[triangle]), hn::Load(d, rays.far + first));
     const auto before = hn::Lt(hn::Set(d, far[triangle]), hn::Load(d, rays.near + first));
     const uint32_t all = (1U << hn::Lanes(d)) - 1;
-    return ~bits_of(d, hn::Or(outside, hn::Or(beyond, before))) & all;
+    return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & all;
   }
 };
 
 // intersect_triangle() for rays from `first` on, as many as a vector of doubles has, with the same
-// operations in the same order. Where it finds no hit t is negative.
+// operations in the same order. Where it finds no hit t is negative; u and v are w1 / sum, w2 /
+// sum.
 struct PacketHits {
-  hn::Vec<HalfFloats> t, u, v;
+  hn::Vec<HalfFloats> t;
+  hn::Vec<HalfDoubles> w1, w2, sum;
 };
 template <int kSize>
 HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&away)[3][3],
@@ -154,8 +159,8 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&aw
   const auto inside = hn::Or(hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero),
                              hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
   const auto hit = hn::And(hn::And(inside, hn::Ne(sum, zero)), hn::Ge(t, zero));
-  return {hn::Add(hn::DemoteTo(df, hn::IfThenElse(hit, t, hn::Set(d, -1.0))), hn::Zero(df)),
-          hn::DemoteTo(df, hn::Div(w1, sum)), hn::DemoteTo(df, hn::Div(w2, sum))};
+  return {hn::Add(hn::DemoteTo(df, hn::IfThenElse(hit, t, hn::Set(d, -1.0))), hn::Zero(df)), w1, w2,
+          sum};
 }
 
 // Offers a triangle to rays from `first` on, as ClosestHit::offer() does. Returns whether one took
@@ -171,8 +176,9 @@ HWY_INLINE bool offer(PacketRays<kSize>& rays, const TriangleBlock& block, uint3
   }
   const HalfFloats half;
   constexpr size_t kHalf = hn::MaxLanes(HalfFloats());
-  const auto none = hn::Set(half, -1.0F);
-  PacketHits low = {none, none, none};
+  const HalfDoubles doubles;
+  const auto one = hn::Set(doubles, 1.0);
+  PacketHits low = {hn::Set(half, -1.0F), one, one, one};
   PacketHits high = low;
   if ((candidates & ((1U << kHalf) - 1)) != 0) low = intersect(rays, away, first);
   if (candidates >> kHalf != 0) high = intersect(rays, away, first + kHalf);
@@ -190,8 +196,9 @@ HWY_INLINE bool offer(PacketRays<kSize>& rays, const TriangleBlock& block, uint3
   const auto store = [&](auto value, float* at) HWY_ATTR {
     hn::Store(hn::IfThenElse(taken, value, hn::Load(d, at)), d, at);
   };
-  store(hn::Combine(d, high.u, low.u), rays.u + first);
-  store(hn::Combine(d, high.v, low.v), rays.v + first);
+  const auto quotient = [&](auto a, auto b) HWY_ATTR { return hn::DemoteTo(half, hn::Div(a, b)); };
+  store(hn::Combine(d, quotient(high.w1, high.sum), quotient(low.w1, low.sum)), rays.u + first);
+  store(hn::Combine(d, quotient(high.w2, high.sum), quotient(low.w2, low.sum)), rays.v + first);
   hn::Store(hn::IfThenElse(hn::RebindMask(dw, taken), index, best), dw, rays.primitive + first);
   if (kQuery == Query::kAny) {
     const auto done = hn::Set(d, -1.0F);
