@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Narrow bundles of rays from one eye, as packets trace them together: the same bits as ray by ray,
+// whatever they look along, and whatever stands among them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "capi/handles.h"
+#include "support/soups.h"
+
+namespace sobb::test {
+namespace {
+
+struct Eye {
+  std::string name;
+  float origin[3];
+  float along[3];  // the middle of the bundles
+};
+
+// Along an axis, where directions change sign; along diagonals, where the largest component does;
+// within the scene, on its faces and far from it.
+const Eye kEyes[] = {
+    {"above", {0.5F, 0.5F, 4}, {0, 0, -1}},        {"below", {0.25F, 0.75F, -3}, {0, 0, 1}},
+    {"left", {-5, 0.5F, 0.5F}, {1, 0, 0}},         {"right", {6, 0.25F, 0.5F}, {-1, 0, 0}},
+    {"diagonal", {-2, -2, 0.5F}, {1, 1, 0}},       {"corner", {-3, -3, -3}, {1, 1, 1}},
+    {"opposite", {4, 4, -3}, {-1, -1, 1}},         {"inside", {0.5F, 0.5F, 0.5F}, {-1, 0.3F, 0.2F}},
+    {"on a face", {0.5F, 0.5F, 0}, {0, 0.01F, 1}}, {"far", {3e4F, 2e4F, -1e4F}, {-3, -2, 1}},
+    {"too far", {1e19F, 0, 0}, {-1, 0, 0}},
+};
+
+// Bundles of 64, their rays in a square of `width`, some of them turned to a corner of a triangle.
+std::vector<sobb_ray> bundles(const Soup& soup, const Eye& eye, double width, uint64_t seed) {
+  Random random(seed);
+  std::vector<sobb_ray> rays;
+  for (int bundle = 0; bundle < 12; ++bundle) {
+    float middle[3];
+    for (int k = 0; k < 3; ++k) middle[k] = eye.along[k] + random.between(-0.15, 0.15);
+    if (bundle < 4) std::copy_n(eye.along, 3, middle);
+    const float length = std::ldexp(1.0F, static_cast<int>(random.below(9)) - 4);
+    for (int i = 0; i < 64; ++i) {
+      sobb_ray ray = {{eye.origin[0], eye.origin[1], eye.origin[2]},
+                      0,
+                      {},
+                      std::numeric_limits<float>::infinity()};
+      const bool aimed = bundle % 3 == 2 && i % 4 == 0;
+      const auto triangle = random.below(static_cast<uint32_t>(soup.indices.size() / 3));
+      for (int k = 0; k < 3; ++k) {
+        ray.direction[k] = aimed ? soup.corner(triangle, i % 3)[k] - eye.origin[k]
+                                 : length * (middle[k] + random.between(-width, width));
+      }
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
+class Packets : public testing::TestWithParam<uint32_t> {
+ protected:
+  // Arrays with the coherent flag, packets and occlusion against rays one by one.
+  void expect_agreement(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays,
+                        const std::string& what) {
+    const std::vector<sobb_hit> expected = trace(hierarchy, rays);
+    for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
+      sobb_isa resolved;
+      if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
+      sobb_trace_options options = trace_options(SOBB_TRACE_COHERENT);
+      options.isa = isa;
+      const std::vector<sobb_hit> hits = trace(hierarchy, rays, options);
+      std::vector<uint8_t> occluded(rays.size());
+      ASSERT_EQ(sobb_occluded(hierarchy.get(), rays.data(), rays.size(), occluded.data(), &options),
+                SOBB_OK);
+      for (size_t i = 0; i < rays.size(); ++i) {
+        ASSERT_TRUE(same(hits[i], expected[i])) << what << ", isa " << isa << ", ray " << i;
+        ASSERT_EQ(occluded[i], occlusion(expected[i])) << what << ", isa " << isa << ", ray " << i;
+      }
+    }
+    sobb_hit hits[16];
+    for (size_t i = 0; i + 16 <= rays.size(); i += 16) {
+      ASSERT_EQ(sobb_intersect_packet(hierarchy.get(), &rays[i], 0xFFFF, hits), SOBB_OK);
+      for (size_t j = 0; j < 16; ++j) {
+        ASSERT_TRUE(same(hits[j], expected[i + j])) << what << ", packet, ray " << i + j;
+      }
+    }
+  }
+
+  // A scene before every eye, in narrow and wide bundles, the rays changed by `change`.
+  void check(const Soup& soup, uint64_t seed,
+             const std::function<void(std::vector<sobb_ray>&, Random&)>& change) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    for (const uint32_t width : {4U, 8U}) {
+      sobb_build_options options = build_options(GetParam(), SOBB_QUALITY_HIGH);
+      options.width = width;
+      const HierarchyHandle hierarchy = build_soup(soup, options);
+      for (const Eye& eye : kEyes) {
+        for (const double spread : {1e-5, 1e-3, 4e-3, 0.02, 0.2}) {
+          std::vector<sobb_ray> rays = bundles(soup, eye, spread, random.bits());
+          change(rays, random);
+          expect_agreement(hierarchy, rays, soup.name + " from " + eye.name);
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+
+ private:
+  static uint8_t occlusion(const sobb_hit& hit) {
+    if (hit.primitive == SOBB_INVALID) return SOBB_OCCLUDED_INVALID;
+    return hit.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
+  }
+};
+
+void nothing(std::vector<sobb_ray>& /*rays*/, Random& /*random*/) {}
+
+TEST_P(Packets, AgreeInSoups) { check(random_soup(31, 900, 0.2), 1, nothing); }
+TEST_P(Packets, AgreeInDustSmallerThanAPixel) { check(random_soup(32, 3000, 2e-4), 2, nothing); }
+TEST_P(Packets, AgreeInSlivers) { check(sliver_soup(33, 600), 3, nothing); }
+TEST_P(Packets, AgreeOnSharedEdges) { check(closed_box(6), 4, nothing); }
+TEST_P(Packets, AgreeInTurnedBoxes) { check(turned_boxes(34, 40), 5, nothing); }
+
+TEST_P(Packets, AgreeForAnyIntervals) {
+  check(random_soup(35, 900, 0.2), 6, [](std::vector<sobb_ray>& rays, Random& random) {
+    for (sobb_ray& ray : rays) {
+      if (random.below(2) == 0) ray.tmin = random.between(0, 6);
+      if (random.below(2) == 0) ray.tmax = random.between(-0.5, 12);
+    }
+  });
+}
+
+TEST_P(Packets, AgreeWithStrangersAmongThem) {
+  check(random_soup(36, 900, 0.2), 7, [](std::vector<sobb_ray>& rays, Random& random) {
+    for (sobb_ray& ray : rays) {
+      switch (random.below(12)) {
+        case 0:  // invalid
+          ray.direction[random.below(3)] = std::numeric_limits<float>::quiet_NaN();
+          break;
+        case 1:
+          ray.tmin = -1;
+          break;
+        case 2:  // from elsewhere
+          ray.origin[random.below(3)] += 0.25F;
+          break;
+        case 3:  // the other way
+          for (float& d : ray.direction) d = -d;
+          break;
+        case 4:  // along another axis
+          std::swap(ray.direction[0], ray.direction[2]);
+          break;
+        default:
+          break;
+      }
+    }
+  });
+}
+
+TEST_P(Packets, AgreeInArraysOfAnyLength) {
+  const Soup soup = random_soup(37, 900, 0.2);
+  const HierarchyHandle hierarchy = build_soup(soup, build_options(GetParam()));
+  const std::vector<sobb_ray> all = bundles(soup, kEyes[0], 4e-3, 8);
+  for (size_t count = 0; count < 140; ++count) {
+    expect_agreement(hierarchy, {all.begin(), all.begin() + static_cast<ptrdiff_t>(count)},
+                     std::to_string(count) + " rays");
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST_P(Packets, AgreeUnderEveryMask) {
+  const Soup soup = random_soup(38, 900, 0.2);
+  const HierarchyHandle hierarchy = build_soup(soup, build_options(GetParam()));
+  std::vector<sobb_ray> rays = bundles(soup, kEyes[0], 4e-3, 9);
+  rays.resize(16);
+  const std::vector<sobb_hit> expected = trace(hierarchy, rays);
+  const sobb_hit untouched = {-7, 0, 0, 0, 0, 0};
+  Random random(10);
+  for (int round = 0; round < 500; ++round) {
+    const auto mask = static_cast<uint32_t>(random.bits() & random.bits() & 0xFFFF);
+    std::vector<sobb_hit> hits(16, untouched);
+    ASSERT_EQ(sobb_intersect_packet(hierarchy.get(), rays.data(), mask, hits.data()), SOBB_OK);
+    for (uint32_t i = 0; i < 16; ++i) {
+      const bool asked = (mask >> i & 1) != 0;
+      ASSERT_TRUE(same(hits[i], asked ? expected[i] : untouched)) << mask << ", ray " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Volumes, Packets, testing::Values(SOBB_VOLUME_AABB, SOBB_VOLUME_SOBB),
+                         [](const testing::TestParamInfo<uint32_t>& info) {
+                           return info.param == SOBB_VOLUME_AABB ? "aabb" : "sobb";
+                         });
+
+}  // namespace
+}  // namespace sobb::test
