@@ -21,6 +21,9 @@ class CountingAllocator {
   CountingAllocator(const CountingAllocator&) = delete;
   CountingAllocator& operator=(const CountingAllocator&) = delete;
 
+  // The next `count` allocations fail.
+  void refuse_next(uint64_t count) { refusals_ = count; }
+
   sobb_allocator callback() { return {this, allocate, deallocate}; }
   uint64_t calls() const { return calls_; }
   size_t blocks() const { return held_.size(); }
@@ -30,6 +33,10 @@ class CountingAllocator {
     auto* self = static_cast<CountingAllocator*>(user);
     const std::scoped_lock lock(self->mutex_);
     if (self->calls_++ == self->fail_at_) return nullptr;
+    if (self->refusals_ != 0) {
+      --self->refusals_;
+      return nullptr;
+    }
     void* block = nullptr;
     if (posix_memalign(&block, std::max(alignment, sizeof(void*)), size) != 0) return nullptr;
     self->held_[block] = {size, alignment};
@@ -53,6 +60,7 @@ class CountingAllocator {
   std::map<void*, std::pair<size_t, size_t>> held_;
   uint64_t calls_ = 0;
   uint64_t fail_at_;
+  uint64_t refusals_ = 0;
 };
 
 }  // namespace sobb::test

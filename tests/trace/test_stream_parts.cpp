@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lists of rays are made of: an entry's order and bounds, the table that packs lanes.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "support/soups.h"
+#include "trace/pack_table.h"
+#include "trace/ray_entry.h"
+#include "trace/tracer.h"
+
+namespace sobb::test {
+namespace {
+
+RayEntry entry_of(float distance, uint32_t ray) {
+  return (std::bit_cast<uint32_t>(distance) & kEntryDistance) | ray;
+}
+
+TEST(RayEntry, HasRoomForEveryRayOfABatch) {
+  static_assert((kEntryDistance & (kBatchRays - 1)) == 0);
+  static_assert((kMissed & kEntryDistance) == kMissed, "no ray's index may look missed");
+  for (uint32_t ray = 0; ray < kBatchRays; ++ray) {
+    EXPECT_EQ(entry_ray(entry_of(1.5F, ray)), ray);
+    EXPECT_EQ(entry_distance(entry_of(1.5F, ray)), 1.5F);
+    EXPECT_EQ(entry_ray(entry_of(1.5F, ray) | kMissed), ray);
+  }
+}
+
+TEST(RayEntry, DistanceIsRoundedDownAndOrders) {
+  const uint64_t seed = 41;
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Random random(seed);
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const auto any_distance = [&] {  // denormal to the largest
+    return std::bit_cast<float>(random.below(std::bit_cast<uint32_t>(kInfinity)));
+  };
+  for (int i = 0; i < 100000; ++i) {
+    const float near = any_distance();
+    const float far = any_distance();
+    const RayEntry a = entry_of(near, random.below(kBatchRays));
+    const RayEntry b = entry_of(far, random.below(kBatchRays));
+    ASSERT_LE(entry_distance(a), near);
+    ASSERT_GE(entry_distance(a) * 1.01F + 0x1p-132F, near);
+    if (entry_distance(a) < entry_distance(b)) {
+      ASSERT_LT(a, b) << near << " and " << far;
+    }
+    ASSERT_LT(a, b | kMissed) << "what misses comes last";
+  }
+  EXPECT_EQ(entry_distance(entry_of(0, 5)), 0);
+  EXPECT_EQ(entry_distance(entry_of(kInfinity, 5)), kInfinity);
+}
+
+TEST(PackTable, KeepsLanesInOrder) {
+  for (uint32_t mask = 0; mask < 256; ++mask) {
+    int kept = 0;
+    for (uint8_t lane = 0; lane < 8; ++lane) {
+      if ((mask >> lane & 1) == 0) continue;
+      EXPECT_EQ(kPackTable.lane[mask][kept++], lane) << mask;
+    }
+    EXPECT_EQ(kept, std::popcount(mask));
+    for (; kept < 8; ++kept) EXPECT_EQ(kPackTable.lane[mask][kept], 0) << mask;
+  }
+}
+
+}  // namespace
+}  // namespace sobb::test
