@@ -126,9 +126,9 @@ SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out);
 
 /**
  * The caller's allocator. Every allocation of the library on behalf of a call that was given one
- * goes through it, as do those that the resulting hierarchy keeps, but for some hundred bytes of
- * bookkeeping. (Embree's builder allocates by itself; its bytes are counted against the memory
- * limit.) Called from several threads at once.
+ * goes through it, as do those that the resulting hierarchy keeps and those of tracing it, but for
+ * some hundred bytes of bookkeeping. (Embree, which builds low and high quality, allocates by
+ * itself; its bytes are counted against the memory limit.) Called from several threads at once.
  */
 typedef struct sobb_allocator {
   void* user;
@@ -141,8 +141,8 @@ typedef struct sobb_allocator {
 /**
  * The caller's thread pool. `parallel_for` runs body(context, i) once for each i < count, on any
  * threads, in any order, and returns when all are done. Bodies do not throw and do not block on
- * each other. A build with a scheduler starts no thread of its own: Embree's builder then runs on
- * the calling thread.
+ * each other. A build with a scheduler starts no thread of its own: Embree, which builds low and
+ * high quality, then runs on the calling thread.
  */
 typedef struct sobb_scheduler {
   void* user;
@@ -183,9 +183,9 @@ typedef enum sobb_volume {
 /** The topology builder's effort. */
 typedef enum sobb_quality {
   SOBB_QUALITY_DEFAULT = 0, /**< medium */
-  SOBB_QUALITY_LOW = 1,     /**< Morton order */
-  SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic */
-  SOBB_QUALITY_HIGH = 3     /**< the same with spatial splits; more references, faster rays */
+  SOBB_QUALITY_LOW = 1,     /**< Morton order, by Embree */
+  SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic, the library's own builder */
+  SOBB_QUALITY_HIGH = 3     /**< with spatial splits, by Embree; more references, faster rays */
 } sobb_quality;
 
 /** How a basis is chosen among the k/2 directions (EG25, section 4). */
@@ -204,7 +204,7 @@ typedef enum sobb_table {
    * Fitted to the scene: the spread set turned into the frame that the scene's own normals and
    * edges suggest, in which the topology is built too. For walls, floors and machine parts that are
    * turned against the axes; where no frame is better than the axes it is the spread set. Not for
-   * the AABB. Costs some 30 ms of one thread at 250,000 triangles, 60 ms at a million.
+   * the AABB. Costs some 8 ms of one thread at 250,000 triangles, 25 ms at a million.
    */
   SOBB_TABLE_FITTED = 2
 } sobb_table;
@@ -219,7 +219,7 @@ typedef struct sobb_build_options {
   uint32_t width;        /**< children a node: 4 or 8 (default) */
   uint32_t threads;      /**< at most this many; 1 starts none; 0 as many as TBB gives */
   uint32_t isa;          /**< a sobb_isa; never changes the result */
-  uint64_t memory_limit; /**< bytes held at once at most, Embree's included; 0 for none */
+  uint64_t memory_limit; /**< bytes held at once at most, with Embree's; 0 for none */
   const sobb_allocator* allocator; /**< copied; NULL for the library's own */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
   /**
@@ -330,11 +330,11 @@ typedef struct sobb_info {
   double inner_area; /**< sum of the inner children's areas over the box's area */
   double leaf_area;  /**< sum of the leaves' areas over the box's area */
   /* Of the build, in milliseconds and bytes; zero for a hierarchy that was opened. */
-  double topology_ms; /**< a fitted table, primitive bounds and Embree's builder */
+  double topology_ms; /**< a fitted table and the binary hierarchy */
   double collapse_ms; /**< binary to wide */
   double volume_ms;   /**< k-DOPs, volumes, nodes and triangle blocks */
   double total_ms;
-  uint64_t peak_bytes; /**< the most held at once, Embree's builder included */
+  uint64_t peak_bytes; /**< the most held at once, with Embree's */
   uint32_t table;      /**< SOBB_TABLE_SPREAD for the library's own directions, else _FITTED */
   uint32_t reserved;   /**< zero */
 } sobb_info;
@@ -382,7 +382,7 @@ typedef struct sobb_count {
 
 /** Bits of sobb_trace_options::flags. */
 enum {
-  /** Neighbours in the array are alike (primary rays in tiles): trace them as packets. */
+  /** Neighbours in the array are alike (primary rays in tiles): trace them 64 at a time. */
   SOBB_TRACE_COHERENT = 1
 };
 

@@ -16,9 +16,9 @@ from sobb.paper.table import (
 )
 
 _HOW = """\
-Every row of a scene shares one hierarchy of AABBs, made by Embree's builder at medium quality, and
-one traversal: only the volumes differ. Build is that of the AABBs plus the overhead, which is the
-conversion to the row's volumes alone. SOBBs are chosen by the strategy k², of directions for
+Every row of a scene shares one hierarchy of AABBs, of medium quality, and one traversal: only the
+volumes differ. Build is that of the AABBs plus the overhead, which is the conversion to the row's
+volumes alone. SOBBs are chosen by the strategy k², of directions for
 k = 32, 48, 64, 128 or 256; d is the direct form of 48 bytes, i the indexed one of 26 bytes. Areas
 are sums over all children, relative to the area of the scene's box. Secondary rays are all bounces
 1 to 7 of a path tracer, distributed by the cosine, without Russian roulette, one path a pixel;
