@@ -111,6 +111,7 @@ TEST(ScratchPool, ThreadsNeverShareABlock) {
   {
     ScratchPool pool(memory, kSize);
     std::vector<std::thread> threads;
+    threads.reserve(4);
     for (int id = 0; id < 4; ++id) {
       threads.emplace_back([&pool, id] {
         for (int round = 0; round < 2000; ++round) {

@@ -159,6 +159,27 @@ SmallFile make_small(sobb_volume volume) {
   return file;
 }
 
+template <uint32_t W>
+SmallFile make_comb_of(uint32_t node_count, uint32_t turn) {
+  const uint32_t leaf_count = node_count * (W - 1) + 1;
+  SmallFile file = begin({W, 3, node_count, leaf_count}, SOBB_VOLUME_AABB, node_count);
+  Filler<W> fill(file, std::vector<Triangle>(leaf_count, helix_triangle(0)));
+  uint32_t leaf = 0;
+  for (uint32_t i = 0; i < node_count; ++i) {
+    const uint32_t inner = i < turn ? 0 : W - 1;
+    for (uint32_t lane = 0; lane < W; ++lane) {
+      if (lane == inner && i + 1 < node_count) {
+        fill.add_child(static_cast<int>(i), 0, 1, kAxesBasis, i + 1);
+      } else {
+        fill.add_leaf(static_cast<int>(i), leaf, leaf + 1, kAxesBasis, leaf);
+        ++leaf;
+      }
+    }
+  }
+  file.seal();
+  return file;
+}
+
 // Everything that a traversal might touch.
 template <int W>
 uint64_t count_reachable(const FileView& view, uint32_t node_index) {
@@ -215,6 +236,10 @@ SmallFile make_chain(uint32_t node_count) {
   fill.add_leaf(static_cast<int>(node_count) - 1, 0, 1, kAxesBasis, 0);
   file.seal();
   return file;
+}
+
+SmallFile make_comb(uint32_t width, uint32_t node_count, uint32_t turn) {
+  return width == 4 ? make_comb_of<4>(node_count, turn) : make_comb_of<8>(node_count, turn);
 }
 
 Image copy_of(std::span<const std::byte> bytes) {

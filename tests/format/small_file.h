@@ -43,6 +43,10 @@ SmallFile make_smallest_file();
 // AABB nodes each of which is the only child of the one before, a leaf under the last; sealed.
 SmallFile make_chain(uint32_t node_count);
 
+// AABB nodes, all full of leaves of one triangle, the same everywhere, but for one child: the node
+// after. It is the first child of the first `turn` nodes and the last one of the others. Sealed.
+SmallFile make_comb(uint32_t width, uint32_t node_count, uint32_t turn);
+
 // A copy of arbitrary bytes, aligned as the reader expects.
 Image copy_of(std::span<const std::byte> bytes);
 

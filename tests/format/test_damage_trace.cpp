@@ -14,7 +14,7 @@ namespace {
 // Towards the triangles from all sides, and from within.
 std::vector<sobb_ray> rays_about(const float (&centre)[3]) {
   std::vector<sobb_ray> rays;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 256; ++i) {  // enough for a batch
     const float angle = 0.7f * static_cast<float>(i);
     const float direction[3] = {std::cos(angle), std::sin(angle), std::cos(2.3f * angle)};
     const float distance = i % 4 == 0 ? 0.0f : 5.0f;
