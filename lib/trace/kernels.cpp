@@ -95,10 +95,10 @@ uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t cou
 
 template <Query kQuery, class Result>
 uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint32_t count, Result* results,
-                     void* memory) {
+                     void* memory, bool& scattered) {
   auto& batch = *new (memory) StreamBatch;
   const auto with = [&](auto volumes) HWY_ATTR {
-    return trace_stream<decltype(volumes), kQuery>(tracer, rays, count, results, batch);
+    return trace_stream<decltype(volumes), kQuery>(tracer, rays, count, results, batch, scattered);
   };
   if (tracer.width == 4) {
     return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());

@@ -37,11 +37,12 @@ inline constexpr uint32_t kBatchRays = 2048;
 // null.
 struct TraceKernels {
   // A batch of rays that need not be coherent, with `batch_bytes` of memory, aligned to 64.
+  // `scattered` receives whether such rays would be faster one by one.
   size_t batch_bytes;
   uint64_t (*intersect_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
-                              sobb_hit* hits, void* memory);
+                              sobb_hit* hits, void* memory, bool& scattered);
   uint64_t (*occluded_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
-                             uint8_t* occluded, void* memory);
+                             uint8_t* occluded, void* memory, bool& scattered);
   // Ray by ray.
   uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                         sobb_count* counts);

@@ -20,6 +20,9 @@ namespace {
 constexpr uint64_t kGrain = sobb::kBatchRays;
 // Fewer rays are not worth a batch's memory.
 constexpr uint64_t kFewestInBatch = 256;
+// After a batch whose rays go ways of their own, rays are traced one by one, but for one task of so
+// many, which tries again.
+constexpr uint64_t kTasksATry = 8;
 
 sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   const sobb_trace_options known = sobb::read_options(options, "trace options");
@@ -34,7 +37,7 @@ template <class Result>
 struct ArrayKernels {
   uint64_t (*single)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
   uint64_t (*coherent)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*);
-  uint64_t (*batch)(const sobb::Tracer&, const sobb_ray*, uint32_t, Result*, void*);
+  uint64_t (*batch)(const sobb::Tracer&, const sobb_ray*, uint32_t, Result*, void*, bool&);
   size_t batch_bytes;
 };
 
@@ -63,6 +66,7 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
   sobb::ScratchPool pool(*hierarchy->memory, kernels.batch_bytes);
   const sobb::Scheduler scheduler(known.threads, known.scheduler);
   std::atomic<uint64_t> invalid{0};
+  std::atomic<bool> scattered{false};
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     const uint64_t size = end - begin;
     if (known.counts != nullptr) {
@@ -73,11 +77,14 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
       invalid += kernels.coherent(tracer, rays + begin, size, results + begin);
       return;
     }
-    if (size >= kFewestInBatch) {
+    const bool tries = begin / kGrain % kTasksATry == 0;
+    if (size >= kFewestInBatch && (tries || !scattered)) {
       const sobb::ScratchPool::Lease lease(pool);
       if (lease.get() != nullptr) {
+        bool alone = false;
         invalid += kernels.batch(tracer, rays + begin, static_cast<uint32_t>(size), results + begin,
-                                 lease.get());
+                                 lease.get(), alone);
+        scattered = alone;
         return;
       }
     }
