@@ -37,8 +37,10 @@ HWY_INLINE void grow(float* box, const float* by) {
 
 HWY_INLINE void copy(const SahReference& from, SahReference& to) {
   const Tag8 d;
+  const auto* source = reinterpret_cast<const float*>(&from);  // all eight words of it
+  auto* target = reinterpret_cast<float*>(&to);
   for (size_t i = 0; i < 8; i += hn::Lanes(d)) {
-    hn::Store(hn::Load(d, from.lower + i), d, to.lower + i);
+    hn::Store(hn::Load(d, source + i), d, target + i);
   }
 }
 

@@ -61,12 +61,12 @@ HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit
 // Traces the rays of one octant after another's step.
 template <class Volumes, Query kQuery>
 class StreamTracer {
-  static constexpr int W = Volumes::kWidth;
+  static constexpr int kWidth = Volumes::kWidth;
   static constexpr bool kAxes = Volumes::kAxesOnly;
 
  public:
   StreamTracer(const TraceScene& scene, StreamBatch& batch)
-      : scene_(scene), nodes_(static_cast<const Node<W>*>(scene.nodes)), batch_(batch) {}
+      : scene_(scene), nodes_(static_cast<const Node<kWidth>*>(scene.nodes)), batch_(batch) {}
 
   // Visits what is next. Returns whether there is more.
   HWY_INLINE bool step(Stream& stream) {
@@ -106,9 +106,9 @@ class StreamTracer {
       for (uint32_t i = 0; i < open; ++i) test_triangles(key, entry_ray(list[i]));
       return;
     }
-    // The children's lists may be W times as long. Where there is no room for that, the rest of
-    // this one waits.
-    const uint32_t room = (stream.capacity - begin - open) / W;
+    // The children's lists may be kWidth times as long. Where there is no room for that, the rest
+    // of this one waits.
+    const uint32_t room = (stream.capacity - begin - open) / kWidth;
     const uint32_t taken = std::min(open, std::max(room, kListRays - 1));
     const uint32_t rest = open - taken;
     if (rest != 0) push(stream, key, begin, rest);
@@ -120,21 +120,21 @@ class StreamTracer {
   }
 
   // Rays that meet a node; their children's lists go to the arena from `begin` on.
-  HWY_INLINE void visit_node(Stream& stream, const Node<W>& node, const RayEntry* rays,
+  HWY_INLINE void visit_node(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
                              uint32_t count, uint32_t begin) {
     const bool shared = kAxes || (node.meta[0] & kSharedBit) != 0;
     if (kAxes || (shared && node.basis[0] == kAxesBasis)) {
-      visit(stream, node, rays, count, begin, FrameNode<W>(batch_, node, stream.octant));
+      visit(stream, node, rays, count, begin, FrameNode<kWidth>(batch_, node, stream.octant));
     } else if (shared) {
-      visit(stream, node, rays, count, begin, SharedNode<W>(scene_, batch_, node));
+      visit(stream, node, rays, count, begin, SharedNode<kWidth>(scene_, batch_, node));
     } else {
-      visit(stream, node, rays, count, begin, OwnNode<W>(scene_, batch_, node));
+      visit(stream, node, rays, count, begin, OwnNode<kWidth>(scene_, batch_, node));
     }
   }
 
   template <class EntriesOf>
-  HWY_INLINE void visit(Stream& stream, const Node<W>& node, const RayEntry* rays, uint32_t count,
-                        uint32_t begin, const EntriesOf& entries_of) {
+  HWY_INLINE void visit(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
+                        uint32_t count, uint32_t begin, const EntriesOf& entries_of) {
     if (count >= kListRays) {
       visit_together(stream, node, rays, count, begin, entries_of);
       return;
@@ -144,13 +144,13 @@ class StreamTracer {
 
   // The children that one ray meets, the nearest on top.
   template <class EntriesOf>
-  HWY_INLINE void visit_alone(Stream& stream, const Node<W>& node, uint32_t ray,
+  HWY_INLINE void visit_alone(Stream& stream, const Node<kWidth>& node, uint32_t ray,
                               const EntriesOf& entries_of) {
     ++visits_alone_;
-    const ChildEntries<W> d;
-    alignas(64) RayEntry entry[W];
+    const ChildEntries<kWidth> d;
+    alignas(64) RayEntry entry[kWidth];
     uint32_t met = 0;
-    for (size_t first = 0; first < W; first += hn::MaxLanes(d)) {
+    for (size_t first = 0; first < kWidth; first += hn::MaxLanes(d)) {
       const auto entries = entries_of(ray, first);
       hn::Store(entries, d, entry + first);
       met |= met_bits(entries) << first;
@@ -161,7 +161,7 @@ class StreamTracer {
     for (; met != 0; met &= met - 1) {
       const auto child = static_cast<uint32_t>(std::countr_zero(met));
       const StackKey key = make_key(0, node.meta[child], node.reference[child]);
-      prefetch<Node<W>>(scene_, key);
+      prefetch<Node<kWidth>>(scene_, key);
       StreamItem* at = top++;
       for (; at != base && at[-1].begin < entry[child]; --at) *at = at[-1];
       *at = {key, entry[child], 0};
@@ -171,14 +171,14 @@ class StreamTracer {
 
   // The children that rays of a list meet, on top the one whose nearest ray is nearest.
   template <class EntriesOf>
-  HWY_INLINE void visit_together(Stream& stream, const Node<W>& node, const RayEntry* rays,
+  HWY_INLINE void visit_together(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
                                  uint32_t count, uint32_t begin, const EntriesOf& entries_of) {
-    ChildLists<W> lists;
-    for (int i = 0; i < W; ++i) lists.list[i] = batch_.list[i];
+    ChildLists<kWidth> lists;
+    for (int i = 0; i < kWidth; ++i) lists.list[i] = batch_.list[i];
     const uint32_t children = child_count(node);
-    fill_lists<W>(rays, count, children, entries_of, lists);
+    fill_lists<kWidth>(rays, count, children, entries_of, lists);
 
-    uint64_t order[W];  // the nearest entry, the child
+    uint64_t order[kWidth];  // the nearest entry, the child
     uint32_t met = 0;
     for (uint32_t child = 0; child < children; ++child) {
       if (lists.count[child] == 0) continue;
@@ -190,7 +190,7 @@ class StreamTracer {
     for (uint32_t i = 0; i < met; ++i) {
       const auto child = static_cast<uint32_t>(order[i]);
       const StackKey key = make_key(0, node.meta[child], node.reference[child]);
-      prefetch<Node<W>>(scene_, key);
+      prefetch<Node<kWidth>>(scene_, key);
       copy_list(lists.list[child], lists.count[child], stream.arena + begin);
       push(stream, key, begin, lists.count[child]);
       begin += lists.count[child];
@@ -204,7 +204,7 @@ class StreamTracer {
   }
 
   const TraceScene& scene_;
-  const Node<W>* nodes_;
+  const Node<kWidth>* nodes_;
   StreamBatch& batch_;
   uint64_t visits_alone_ = 0;
 };
