@@ -64,14 +64,7 @@ RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
 }
 
 RTCBuildQuality to_embree(sobb_quality quality) {
-  switch (quality) {
-    case SOBB_QUALITY_LOW:
-      return RTC_BUILD_QUALITY_LOW;
-    case SOBB_QUALITY_HIGH:
-      return RTC_BUILD_QUALITY_HIGH;
-    default:
-      return RTC_BUILD_QUALITY_MEDIUM;
-  }
+  return quality == SOBB_QUALITY_LOW ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH;
 }
 
 // What Embree's callbacks see. They run on several threads at once and may not throw.

@@ -15,6 +15,7 @@
 #include <bit>
 
 #include "trace/ray_table-inl.h"
+#include "trace/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -51,17 +52,11 @@ HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], ui
 }
 
 // Entries of four children, each child's in a block of 128 bits, as vectors over the children.
-// In every block that V has: rows a, b, c, d of (r, n, f, -) become columns.
-template <class V, class D = hn::DFromV<V>>
-HWY_INLINE SlabCoefficients<V> transpose(D d, V a, V b, V c, V e) {
-  const hn::Repartition<uint64_t, D> pairs;
-  const auto low_ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));  // r r n n
-  const auto low_cd = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
-  const auto high_ab = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));  // f f - -
-  const auto high_cd = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
-  return {hn::BitCast(d, hn::InterleaveLower(pairs, low_ab, low_cd)),
-          hn::BitCast(d, hn::InterleaveUpper(pairs, low_ab, low_cd)),
-          hn::BitCast(d, hn::InterleaveLower(pairs, high_ab, high_cd))};
+template <class V>
+HWY_INLINE SlabCoefficients<V> columns_of(V a, V b, V c, V e) {
+  V column[4];
+  transpose_blocks(a, b, c, e, column);
+  return {column[0], column[1], column[2]};
 }
 
 // What the table has for the j-th direction of each child's own basis. Loads and shuffles:
@@ -78,10 +73,10 @@ HWY_INLINE SlabCoefficients<V> look_up(const RayTable& table, const uint16_t* ba
     const auto high = hn::InterleaveUpper(d4, entry(0), entry(1));
     return {hn::LowerHalf(d, low), hn::UpperHalf(d, low), hn::LowerHalf(d, high)};
   } else if constexpr (hn::MaxLanes(d) == 4) {
-    return transpose(d, entry(0), entry(1), entry(2), entry(3));
+    return columns_of(entry(0), entry(1), entry(2), entry(3));
   } else {
-    return transpose(d, hn::Combine(d, entry(4), entry(0)), hn::Combine(d, entry(5), entry(1)),
-                     hn::Combine(d, entry(6), entry(2)), hn::Combine(d, entry(7), entry(3)));
+    return columns_of(hn::Combine(d, entry(4), entry(0)), hn::Combine(d, entry(5), entry(1)),
+                      hn::Combine(d, entry(6), entry(2)), hn::Combine(d, entry(7), entry(3)));
   }
 }
 

@@ -58,7 +58,7 @@ HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit
   return open;
 }
 
-// Traces the rays of one octant after another's step.
+// Steps streams of one batch, in whatever order they are asked to.
 template <class Volumes, Query kQuery>
 class StreamTracer {
   static constexpr int kWidth = Volumes::kWidth;

@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <new>
 
 #include "trace/ray_entry.h"
@@ -26,6 +27,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr uint32_t kOctants = 8;
+inline constexpr uint32_t kMostChildren = 8;
 
 // What node tests read of a ray: the first three directions' coefficients (ray_table-inl.h), and
 // what those of other directions are made of.
@@ -77,7 +79,8 @@ struct StreamBatch {
   StreamRay ray[kBatchRays];
   float limit[kBatchRays];  // in scaled units; negative once an any-hit ray is done
   Stream stream[kOctants];
-  RayEntry list[kOctants][kBatchRays + kSlack];  // by child, while a node is visited
+  // By octant before the streams begin, then by child, while a node is visited.
+  RayEntry list[std::max(kOctants, kMostChildren)][kBatchRays + kSlack];
   RayEntry arena[kArena * kBatchRays + kOctants * kSlack];
   // Made ray by ray, since neither has a default.
   alignas(BlockRay) uint8_t block_rays[kBatchRays][sizeof(BlockRay)];

@@ -15,6 +15,7 @@
 #include "trace/node_test-inl.h"
 #include "trace/pack_table.h"
 #include "trace/ray_entry.h"
+#include "trace/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -55,21 +56,6 @@ HWY_INLINE uint32_t store_packed(VU entries, uint32_t bits, RayEntry* to) {
   const auto lanes = hn::PromoteTo(du, hn::Load(bytes, kPackTable.lane[bits]));
   hn::StoreU(hn::TableLookupLanes(entries, hn::IndicesFromVec(du, lanes)), du, to);
   return static_cast<uint32_t>(std::popcount(bits));
-}
-
-// Transposes within each block of 128 bits: rows a, b, c, e become columns.
-template <class VU, class D = hn::DFromV<VU>>
-HWY_INLINE void transpose_blocks(VU a, VU b, VU c, VU e, VU* column) {
-  const D d;
-  const hn::Repartition<uint64_t, D> pairs;
-  const auto low_ab = hn::BitCast(pairs, hn::InterleaveLower(d, a, b));
-  const auto low_ce = hn::BitCast(pairs, hn::InterleaveLower(d, c, e));
-  const auto high_ab = hn::BitCast(pairs, hn::InterleaveUpper(d, a, b));
-  const auto high_ce = hn::BitCast(pairs, hn::InterleaveUpper(d, c, e));
-  column[0] = hn::BitCast(d, hn::InterleaveLower(pairs, low_ab, low_ce));
-  column[1] = hn::BitCast(d, hn::InterleaveUpper(pairs, low_ab, low_ce));
-  column[2] = hn::BitCast(d, hn::InterleaveLower(pairs, high_ab, high_ce));
-  column[3] = hn::BitCast(d, hn::InterleaveUpper(pairs, high_ab, high_ce));
 }
 
 // As many rows, by ray, as a vector has lanes, as columns, by child.
