@@ -29,8 +29,8 @@ NamedTable default_table(uint32_t k) {
 }
 
 NamedTable fitted_table(StudyScene& scene, uint32_t k) {
-  return {"fitted " + std::to_string(k),
-          scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory())};
+  const auto directions = scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory());
+  return {"fitted " + std::to_string(k), {directions.begin(), directions.end()}};
 }
 
 Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,

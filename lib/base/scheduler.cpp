@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/scheduler.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <exception>
 #include <mutex>
 
 #include "base/float_control.h"
+#include "base/tbb_threads.h"
 
 namespace sobb {
 namespace {
@@ -47,28 +44,19 @@ class Loop {
 
 void Scheduler::run(uint64_t count, void (*body)(void*, uint64_t), void* context) const {
   Loop loop(body, context);
+  const auto run_one = [](void* of, uint64_t index) { static_cast<Loop*>(of)->run(index); };
   if (callback_ != nullptr) {
-    const auto run_one = [](void* of, uint64_t index) { static_cast<Loop*>(of)->run(index); };
     callback_->parallel_for(callback_->user, count, run_one, &loop);
   } else if (threads_ == 1 || count <= 1) {
     for (uint64_t i = 0; i < count; ++i) loop.run(i);
   } else {
-    within_arena([&] { tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) { loop.run(i); }); });
+    run_on_tbb(threads_, count, run_one, &loop);
   }
   loop.rethrow();
 }
 
 void Scheduler::run_in_arena(void (*body)(void*), void* context) const {
-  const bool serial = callback_ != nullptr || threads_ == 1;
-  if (!serial && threads_ == 0) {
-    body(context);
-    return;
-  }
-  // TBB never runs more than its limit, complains of a larger arena, and allocates all its slots.
-  const size_t limit =
-      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  tbb::task_arena arena(serial ? 1 : static_cast<int>(std::min<size_t>(threads_, limit)));
-  arena.execute([&] { body(context); });
+  run_in_tbb_arena(callback_ != nullptr ? 1 : threads_, body, context);
 }
 
 }  // namespace sobb

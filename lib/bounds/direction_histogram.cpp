@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace sobb {
 namespace {
@@ -20,7 +21,7 @@ struct Rest {
 };
 
 // The mean direction of what lies around `start`, and its weight.
-Rest gather(const std::vector<Rest>& rests, const Vector& start) {
+Rest gather(std::span<const Rest> rests, const Vector& start) {
   Rest sum{{0, 0, 0}, 0};
   for (const Rest& rest : rests) {
     const double cosine = dot(rest.direction, start);
@@ -57,8 +58,9 @@ void DirectionHistogram::add(const DirectionHistogram& other) {
   }
 }
 
-std::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit, double least_share) const {
-  std::vector<Rest> rests;
+std::pmr::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit,
+                                                          double least_share) const {
+  std::pmr::vector<Rest> rests(cells_.get_allocator());
   double total = 0;
   for (const Cell& cell : cells_) {
     const double norm = length(cell.sum);
@@ -66,7 +68,10 @@ std::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit, double leas
     rests.push_back({{cell.sum[0] / norm, cell.sum[1] / norm, cell.sum[2] / norm}, cell.weight});
     total += cell.weight;
   }
-  std::vector<DirectionPeak> peaks;
+  const auto heavier = [](const DirectionPeak& a, const DirectionPeak& b) {
+    return a.share > b.share;
+  };
+  std::pmr::vector<DirectionPeak> peaks(cells_.get_allocator());
   for (;;) {
     const auto heaviest =
         std::max_element(rests.begin(), rests.end(),
@@ -74,16 +79,14 @@ std::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit, double leas
     if (heaviest == rests.end() || heaviest->weight * kCellsOfPeak < least_share * total) break;
     const Rest peak = gather(rests, gather(rests, heaviest->direction).direction);
     if (peak.weight >= least_share * total) {
-      peaks.push_back({peak.direction, peak.weight / total});
+      const DirectionPeak found = {peak.direction, peak.weight / total};
+      peaks.insert(std::upper_bound(peaks.begin(), peaks.end(), found, heavier), found);
     }
     heaviest->weight = 0;  // so that the loop ends, wherever the mean came to lie
     for (Rest& rest : rests) {
       if (std::fabs(dot(rest.direction, peak.direction)) > kSpacingCosine) rest.weight = 0;
     }
   }
-  std::stable_sort(peaks.begin(), peaks.end(), [](const DirectionPeak& a, const DirectionPeak& b) {
-    return a.share > b.share;
-  });
   if (peaks.size() > limit) peaks.resize(limit);
   return peaks;
 }

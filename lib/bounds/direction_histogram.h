@@ -26,8 +26,8 @@ class DirectionHistogram {
   void add(const DirectionHistogram& other);
 
   // The heaviest peaks, at most `limit`, heaviest first; of those nearer to each other than
-  // kPeakSpacing the heavier one. Every share is `least_share` or more.
-  std::vector<DirectionPeak> peaks(uint32_t limit, double least_share) const;
+  // kPeakSpacing the heavier one. Every share is `least_share` or more. In the histogram's memory.
+  std::pmr::vector<DirectionPeak> peaks(uint32_t limit, double least_share) const;
 
   // The eigenvectors of the sum of w n n^T: where no single direction stands out, these still turn
   // with the scene.

@@ -61,11 +61,12 @@ OrthogonalFrame nearest_to_axes(const Vector& first, const Vector& second) {
 
 }  // namespace
 
-std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
-                                              std::span<const DirectionPeak> edges,
-                                              std::span<const OrthogonalFrame> principal) {
+std::pmr::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
+                                                   std::span<const DirectionPeak> edges,
+                                                   std::span<const OrthogonalFrame> principal,
+                                                   std::pmr::memory_resource& memory) {
   const OrthogonalFrame axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  std::vector<OrthogonalFrame> frames = {axes};
+  std::pmr::vector<OrthogonalFrame> frames({axes}, &memory);
   const auto add = [&](const Vector& first, const Vector& second, size_t room) {
     const OrthogonalFrame frame = nearest_to_axes(first, reject(second, first));
     const auto same = [&](const OrthogonalFrame& other) {
@@ -75,7 +76,7 @@ std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> nor
       frames.push_back(frame);
     }
   };
-  std::vector<Vector> peaks;
+  std::pmr::vector<Vector> peaks(&memory);
   for (const auto& list : {normals, edges}) {
     for (const DirectionPeak& peak : list) peaks.push_back(peak.direction);
   }
@@ -90,8 +91,9 @@ std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> nor
   return frames;
 }
 
-std::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame) {
-  std::vector<Direction> directions;
+std::pmr::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame,
+                                              std::pmr::memory_resource& memory) {
+  std::pmr::vector<Direction> directions(&memory);
   for (const Direction& n : default_directions(k)) {
     Vector turned;
     for (size_t i = 0; i < 3; ++i) {

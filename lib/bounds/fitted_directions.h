@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,13 @@ namespace sobb {
 // heaviest first, with their cross product; principal axes. Each is ordered and signed as near to
 // the axes as can be.
 inline constexpr size_t kMostFrames = 14;
-std::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
-                                              std::span<const DirectionPeak> edges,
-                                              std::span<const OrthogonalFrame> principal);
+std::pmr::vector<OrthogonalFrame> candidate_frames(std::span<const DirectionPeak> normals,
+                                                   std::span<const DirectionPeak> edges,
+                                                   std::span<const OrthogonalFrame> principal,
+                                                   std::pmr::memory_resource& memory);
 
 // The default set of k/2 directions, its axes turned to a frame's. As it is for the axes.
-std::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame);
+std::pmr::vector<Direction> turned_directions(uint32_t k, const OrthogonalFrame& frame,
+                                              std::pmr::memory_resource& memory);
 
 }  // namespace sobb

@@ -72,13 +72,13 @@ void fill_record(const MeshSummary& summary, uint64_t reference_count,
   record.bounds_max[2] = summary.upper.z;
 }
 
-std::vector<Direction> choose_directions(const Mesh& mesh, const BuildSettings& settings,
-                                         const Scheduler& scheduler, Memory& memory) {
+std::pmr::vector<Direction> choose_directions(const Mesh& mesh, const BuildSettings& settings,
+                                              const Scheduler& scheduler, Memory& memory) {
   if (settings.table == SOBB_TABLE_FITTED) {
     return scene_directions(mesh, settings.k, scheduler, memory);
   }
   const auto directions = default_directions(settings.k);
-  return {directions.begin(), directions.end()};
+  return {directions.begin(), directions.end(), &memory};
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   progress.check(0, kTopologyEnd, 0);
   const Mesh mesh(triangles, scheduler);
   const MeshSummary summary = summarise(mesh, scheduler, *memory);
-  const std::vector<Direction> directions = choose_directions(mesh, settings, scheduler, *memory);
+  const auto directions = choose_directions(mesh, settings, scheduler, *memory);
   const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd,
                           Frame(directions, summary.centre), settings.isa);
   times.topology_ms = ms_since(start);

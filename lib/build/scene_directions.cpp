@@ -23,6 +23,7 @@ constexpr uint64_t kGrain = 1 << 12;
 constexpr double kLeastShare = 0.01;
 constexpr uint32_t kMostNormals = 16;
 constexpr uint32_t kMostEdges = 6;
+constexpr uint32_t kMostPeaks = std::max(kMostNormals, kMostEdges);
 // Cosines of the cones within which a peak's mean is taken again, ever narrower: what lies about a
 // peak must not draw it off the plane that many walls share. 0.36 and 0.036 degrees.
 constexpr double kConeCosines[] = {0.99998, 0.9999998};
@@ -77,7 +78,10 @@ struct Histograms {
 
 Histograms histograms_of(const Sample& sample, const Scheduler& scheduler,
                          std::pmr::memory_resource& memory) {
-  std::vector<Histograms> ranges(sample.ranges(), Histograms(memory));
+  std::pmr::vector<Histograms> ranges(&memory);
+  ranges.reserve(sample.ranges());
+  // One by one: a copy would be in the default memory.
+  for (uint64_t i = 0; i < sample.ranges(); ++i) ranges.emplace_back(memory);
   scheduler.for_ranges(sample.size(), kGrain, [&](uint64_t begin, uint64_t end) {
     Histograms& range = ranges[begin / kGrain];
     for (uint64_t i = begin; i < end; ++i) {
@@ -97,8 +101,7 @@ Histograms histograms_of(const Sample& sample, const Scheduler& scheduler,
 // Adds up what vectors lie in a cone about each peak.
 class Cones {
  public:
-  Cones(std::span<const DirectionPeak> peaks, double cosine)
-      : peaks_(peaks), cosine_(cosine), sums_(peaks.size(), {0, 0, 0}) {}
+  Cones(std::span<const DirectionPeak> peaks, double cosine) : peaks_(peaks), cosine_(cosine) {}
 
   void add(const Vector& v) {
     const double least = cosine_ * length(v);
@@ -109,12 +112,12 @@ class Cones {
     }
   }
   void add(const Cones& other) {
-    for (size_t j = 0; j < sums_.size(); ++j) {
+    for (size_t j = 0; j < peaks_.size(); ++j) {
       for (size_t k = 0; k < 3; ++k) sums_[j][k] += other.sums_[j][k];
     }
   }
   // The mean direction in each cone; the peak's own where nothing is in it.
-  void move(std::vector<DirectionPeak>& peaks) const {
+  void move(std::pmr::vector<DirectionPeak>& peaks) const {
     for (size_t j = 0; j < peaks.size(); ++j) {
       const double norm = length(sums_[j]);
       if (norm > 0) {
@@ -126,13 +129,14 @@ class Cones {
  private:
   std::span<const DirectionPeak> peaks_;
   double cosine_;
-  std::vector<Vector> sums_;
+  std::array<Vector, kMostPeaks> sums_{};
 };
 
 void refine(const Sample& sample, double cosine, const Scheduler& scheduler,
-            std::vector<DirectionPeak>& normals, std::vector<DirectionPeak>& edges) {
-  std::vector<Cones> of_normals(sample.ranges(), Cones(normals, cosine));
-  std::vector<Cones> of_edges(sample.ranges(), Cones(edges, cosine));
+            std::pmr::memory_resource& memory, std::pmr::vector<DirectionPeak>& normals,
+            std::pmr::vector<DirectionPeak>& edges) {
+  std::pmr::vector<Cones> of_normals(sample.ranges(), Cones(normals, cosine), &memory);
+  std::pmr::vector<Cones> of_edges(sample.ranges(), Cones(edges, cosine), &memory);
   scheduler.for_ranges(sample.size(), kGrain, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
       Vector edge[3];
@@ -164,9 +168,10 @@ double box_area(const OrthogonalFrame& frame, const Vector edge[3]) {
 // The frame in which the boxes of single triangles are smallest. It is their size across that is
 // summed up: their areas would leave it to a few large triangles.
 OrthogonalFrame best_frame(const Sample& sample, const Scheduler& scheduler,
-                           std::span<const OrthogonalFrame> frames) {
+                           std::span<const OrthogonalFrame> frames,
+                           std::pmr::memory_resource& memory) {
   using Areas = std::array<double, kMostFrames>;
-  std::vector<Areas> ranges(sample.ranges(), Areas{});
+  std::pmr::vector<Areas> ranges(sample.ranges(), Areas{}, &memory);
   scheduler.for_ranges(sample.size(), kGrain, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
       Vector edge[3];
@@ -186,17 +191,19 @@ OrthogonalFrame best_frame(const Sample& sample, const Scheduler& scheduler,
 
 }  // namespace
 
-std::vector<Direction> scene_directions(const Mesh& mesh, uint32_t k, const Scheduler& scheduler,
-                                        std::pmr::memory_resource& memory) {
+std::pmr::vector<Direction> scene_directions(const Mesh& mesh, uint32_t k,
+                                             const Scheduler& scheduler,
+                                             std::pmr::memory_resource& memory) {
   const Sample sample(mesh);
   const Histograms histograms = histograms_of(sample, scheduler, memory);
-  std::vector<DirectionPeak> normals = histograms.normals.peaks(kMostNormals, kLeastShare);
-  std::vector<DirectionPeak> edges = histograms.edges.peaks(kMostEdges, kLeastShare);
-  for (const double cosine : kConeCosines) refine(sample, cosine, scheduler, normals, edges);
+  std::pmr::vector<DirectionPeak> normals = histograms.normals.peaks(kMostNormals, kLeastShare);
+  std::pmr::vector<DirectionPeak> edges = histograms.edges.peaks(kMostEdges, kLeastShare);
+  for (const double cosine : kConeCosines)
+    refine(sample, cosine, scheduler, memory, normals, edges);
   const OrthogonalFrame principal[] = {histograms.normals.principal_axes(),
                                        histograms.edges.principal_axes()};
-  const auto frames = candidate_frames(normals, edges, principal);
-  return turned_directions(k, best_frame(sample, scheduler, frames));
+  const auto frames = candidate_frames(normals, edges, principal, memory);
+  return turned_directions(k, best_frame(sample, scheduler, frames, memory), memory);
 }
 
 }  // namespace sobb

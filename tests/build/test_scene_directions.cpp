@@ -18,13 +18,13 @@
 namespace sobb::test {
 namespace {
 
-std::vector<Direction> directions_of(const Soup& soup, uint32_t k = 64, uint32_t threads = 1) {
+std::pmr::vector<Direction> directions_of(const Soup& soup, uint32_t k = 64, uint32_t threads = 1) {
   const Scheduler scheduler(threads, nullptr);
   return scene_directions(Mesh(soup.view(), scheduler), k, scheduler,
                           *std::pmr::get_default_resource());
 }
 
-bool same(const std::vector<Direction>& a, std::span<const Direction> b) {
+bool same(std::span<const Direction> a, std::span<const Direction> b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [](const Direction& m, const Direction& n) {
                       return m.x == n.x && m.y == n.y && m.z == n.z;
@@ -35,7 +35,7 @@ double cosine(const Direction& a, const Vector& b) { return a.x * b[0] + a.y * b
 
 TEST(SceneDirections, FindTheFrameOfTurnedBoxes) {
   for (const uint32_t k : {32, 48, 64}) {
-    const std::vector<Direction> found = directions_of(turned_boxes(1, 300), k);
+    const auto found = directions_of(turned_boxes(1, 300), k);
     ASSERT_EQ(found.size(), k / 2);
     for (const Vector& axis :
          {Vector{2 / 3.0, -1 / 3.0, 2 / 3.0}, Vector{2 / 3.0, 2 / 3.0, -1 / 3.0},
@@ -73,7 +73,7 @@ TEST(SceneDirections, AreUnitAndBeginPerpendicular) {
        {line, point, one, flat, degenerate_soup(4, 300), sliver_soup(5, 500), turned_boxes(6, 100),
         placed(turned_boxes(7, 100), 0x1p59, 0), placed(turned_boxes(8, 100), 1e-30, 0),
         placed(turned_boxes(9, 100), 1e-44, 0), placed(turned_boxes(10, 100), 1, 1e6)}) {
-    const std::vector<Direction> found = directions_of(soup);
+    const auto found = directions_of(soup);
     ASSERT_EQ(found.size(), 32u);
     for (const Direction& n : found) EXPECT_NEAR(dot(n, n), 1, 4e-7) << soup.name;
     for (size_t i = 0; i < 3; ++i) {
@@ -85,7 +85,7 @@ TEST(SceneDirections, AreUnitAndBeginPerpendicular) {
 TEST(SceneDirections, AreTheSameForAnyThreadCount) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   for (const Soup& soup : {turned_boxes(11, 14'000), sliver_soup(12, 40'000)}) {
-    const std::vector<Direction> one = directions_of(soup);
+    const auto one = directions_of(soup);
     for (const uint32_t threads : {2, 3, 8}) {
       EXPECT_TRUE(same(directions_of(soup, 64, threads), one)) << soup.name << threads;
     }

@@ -82,7 +82,4 @@ inline bool same(const std::vector<sobb_hit>& a, const std::vector<sobb_hit>& b)
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
-// A caller's pool of three threads that live as long as a loop.
-void run_on_threads(void* user, uint64_t count, void (*body)(void*, uint64_t), void* context);
-
 }  // namespace sobb::test

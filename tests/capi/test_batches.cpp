@@ -13,6 +13,7 @@
 #include "capi/counting_allocator.h"
 #include "capi/handles.h"
 #include "support/soups.h"
+#include "support/thread_pool.h"
 
 namespace sobb::test {
 namespace {
@@ -280,7 +281,8 @@ TEST_P(Batches, AgreeOnAnyThreads) {
   add_strangers(rays, random);
   const std::vector<sobb_hit> expected = one_by_one(hierarchy, rays);
   expect_hits(hierarchy, rays, rays.size(), expected, "threads of TBB", trace_options(0, 3));
-  const sobb_scheduler scheduler = {nullptr, run_on_threads};
+  ThreadPool pool(3);
+  const sobb_scheduler scheduler = pool.callback();
   sobb_trace_options options = trace_options(0, 0);
   options.scheduler = &scheduler;
   expect_hits(hierarchy, rays, rays.size(), expected, "the caller's threads", options);

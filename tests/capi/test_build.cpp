@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "capi/handles.h"
+#include "support/thread_pool.h"
 
 namespace sobb::test {
 namespace {
@@ -31,6 +32,7 @@ struct Threads {
 };
 
 TEST(Build, GivesTheSameBytesHoweverItIsRun) {
+  ThreadPool pool(3);
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   Threads threads;
   for (const Soup& soup : {random_soup(1, 9'000), sliver_soup(2, 1'500), degenerate_soup(3, 1'000),
@@ -49,7 +51,7 @@ TEST(Build, GivesTheSameBytesHoweverItIsRun) {
           options.threads = count;
           EXPECT_TRUE(bytes_of(build_soup(soup, options)) == expected) << count << " threads";
         }
-        const sobb_scheduler scheduler = {nullptr, run_on_threads};
+        const sobb_scheduler scheduler = pool.callback();
         options.scheduler = &scheduler;
         EXPECT_TRUE(bytes_of(build_soup(soup, options)) == expected) << "the caller's threads";
       }

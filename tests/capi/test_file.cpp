@@ -5,6 +5,7 @@
 #include "capi/counting_allocator.h"
 #include "capi/handles.h"
 #include "format/temporary_folder.h"
+#include "support/thread_pool.h"
 
 namespace sobb::test {
 namespace {
@@ -187,7 +188,8 @@ TEST_F(File, MemoryLimitAndAllocatorHold) {
 TEST_F(File, ThreadsAndSchedulersOpenTheSame) {
   const HierarchyHandle built = build_soup(random_soup(47, 30'000));
   const std::string bytes = bytes_of(built);
-  const sobb_scheduler scheduler = {nullptr, run_on_threads};
+  ThreadPool pool(3);
+  const sobb_scheduler scheduler = pool.callback();
   for (const uint32_t threads : {0U, 1U, 3U, 0xFFFFFFFFU}) {
     sobb_open_options options = open_options();
     options.threads = threads;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays from inside of a closed surface never escape; threads trace while others build and release.
+// Rays from inside of a closed surface never escape.
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <thread>
 
 #include "capi/handles.h"
 #include "support/closed_meshes.h"
@@ -29,47 +26,6 @@ TEST(Watertight, RaysFromInsideNeverEscape) {
         }
       }
     }
-  }
-}
-
-TEST(Threads, TraceBuildAndReleaseAtOnce) {
-  const Soup soup = random_soup(32, 3000);
-  const HierarchyHandle shared = build_soup(soup);
-  const std::vector<sobb_ray> rays = mixed_rays(soup, 33, 3000);
-  const std::vector<sobb_hit> expected = trace(shared, rays);
-  std::atomic<int> different{0};
-  std::vector<std::thread> threads;
-  threads.reserve(4);
-  for (int thread = 0; thread < 4; ++thread) {
-    threads.emplace_back([&, thread] {
-      for (int round = 0; round < 8; ++round) {
-        sobb_retain(shared.get());
-        const uint32_t flags = round % 2 == 0 ? 0 : SOBB_TRACE_COHERENT;
-        different += !same(trace(shared, rays, trace_options(flags, 1 + thread % 2)), expected);
-        const HierarchyHandle own =
-            build_soup(soup, build_options(kVolumes[round % 2], 1 + thread % 3, thread % 3));
-        different += !same(trace(own, rays), expected);
-        different += info_of(shared).triangles != 3000;
-        sobb_release(shared.get());
-      }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(different, 0);
-}
-
-// The last release may be any thread's.
-TEST(Threads, ReleaseTheLastReference) {
-  for (int round = 0; round < 50; ++round) {
-    sobb_hierarchy* hierarchy = build_soup(random_soup(34, 20)).release();
-    std::vector<std::thread> threads;
-    threads.reserve(4);
-    for (int thread = 0; thread < 4; ++thread) {
-      sobb_retain(hierarchy);
-      threads.emplace_back([hierarchy] { sobb_release(hierarchy); });
-    }
-    sobb_release(hierarchy);
-    for (std::thread& thread : threads) thread.join();
   }
 }
 
