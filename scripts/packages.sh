@@ -10,6 +10,9 @@ build_packages="g++ cmake ninja-build ccache pkg-config
 test_packages="git libgtest-dev libopenmesh-dev
   clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
 
+# What scripts/coverage.sh needs besides.
+coverage_packages="llvm-14"
+
 # Installs those of the packages named that are missing; needs root or sudo only then.
 need_packages() {
   if ! command -v dpkg-query >/dev/null; then
