@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/scheduler.h"
-#include "build/progress.h"
 #include "format/image.h"
 #include "format/view.h"
 #include "sobb/sobb.h"

@@ -8,10 +8,10 @@
 #include <span>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/scheduler.h"
 #include "build/array.h"
 #include "build/box.h"
-#include "build/progress.h"
 #include "sobb/sobb.h"
 
 namespace sobb {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/scheduler.h"
-#include "build/progress.h"
 #include "build/sah_kernels.h"
 
 namespace sobb {

@@ -4,11 +4,11 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/scheduler.h"
 #include "bounds/direction_table.h"
 #include "build/collapse.h"
 #include "build/mesh.h"
-#include "build/progress.h"
 #include "format/writer.h"
 #include "sobb/sobb.h"
 

@@ -7,6 +7,7 @@
 #include <memory_resource>
 #include <span>
 
+#include "base/progress.h"
 #include "base/scheduler.h"
 #include "format/layout.h"
 
@@ -17,8 +18,8 @@ namespace sobb {
 uint64_t header_checksum(std::span<const std::byte> front);
 
 // XXH3-64 over the XXH3-64 of each MiB, so that a large section is checked in parallel. `scratch`
-// holds eight bytes a MiB meanwhile.
+// holds eight bytes a MiB meanwhile; `stage`, if any, is advanced by the bytes.
 uint64_t section_checksum(std::span<const std::byte> section, const Scheduler& scheduler,
-                          std::pmr::memory_resource& scratch);
+                          std::pmr::memory_resource& scratch, ProgressStage* stage = nullptr);
 
 }  // namespace sobb

@@ -18,8 +18,8 @@
 namespace sobb {
 namespace {
 
-// Linux transfers at most about 2 GiB a call.
-constexpr uint64_t kReadAtOnce = uint64_t{1} << 30;
+// Between pieces of this size the caller may stop.
+constexpr uint64_t kReadAtOnce = uint64_t{1} << 24;
 
 // Opens a regular file and tells its size. Without O_NONBLOCK a FIFO would wait for a writer.
 FileDescriptor open_regular(const char* path, uint64_t& size) {
@@ -48,10 +48,12 @@ Image Image::allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t ze
   return image;
 }
 
-Image Image::read(std::shared_ptr<Memory> memory, const char* path) {
+Image Image::read(std::shared_ptr<Memory> memory, const char* path, Progress& progress,
+                  double progress_end) {
   uint64_t size = 0;
   const FileDescriptor file = open_regular(path, size);
   Image image(std::move(memory), size);
+  ProgressStage stage(progress, 0, progress_end, size);
   for (uint64_t done = 0; done < size;) {
     const ssize_t count =
         ::read(file.get(), image.data_ + done, std::min(size - done, kReadAtOnce));
@@ -65,6 +67,20 @@ Image Image::read(std::shared_ptr<Memory> memory, const char* path) {
            static_cast<unsigned long long>(done), static_cast<unsigned long long>(size));
     }
     done += static_cast<uint64_t>(count);
+    stage.advance(static_cast<uint64_t>(count));
+  }
+  return image;
+}
+
+Image Image::copy(std::shared_ptr<Memory> memory, std::span<const std::byte> bytes,
+                  Progress& progress, double progress_end) {
+  Image image(std::move(memory), bytes.size());
+  ProgressStage stage(progress, 0, progress_end, bytes.size());
+  for (uint64_t done = 0; done < bytes.size();) {
+    const auto piece = bytes.subspan(done, std::min(bytes.size() - done, kReadAtOnce));
+    std::ranges::copy(piece, image.data_ + done);
+    done += piece.size();
+    stage.advance(piece.size());
   }
   return image;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/memory.h"
+#include "base/progress.h"
 
 namespace sobb {
 
@@ -22,8 +23,13 @@ class Image {
   }
   // The same, of which only the first `zeroed` bytes are zero; the others are to be written.
   static Image allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t zeroed);
-  // A private copy of a regular file. Errors: FILE_OPEN, FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT.
-  static Image read(std::shared_ptr<Memory> memory, const char* path);
+  // A private copy of a regular file. Progress runs from 0 to `progress_end`. Errors: FILE_OPEN,
+  // FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED.
+  static Image read(std::shared_ptr<Memory> memory, const char* path, Progress& progress,
+                    double progress_end);
+  // The same of bytes in memory.
+  static Image copy(std::shared_ptr<Memory> memory, std::span<const std::byte> bytes,
+                    Progress& progress, double progress_end);
   // The file where it lies, read-only. Errors: FILE_OPEN, FILE_READ.
   static Image map(const char* path);
 

@@ -6,8 +6,8 @@
 namespace sobb {
 
 FileView read_image(std::span<const std::byte> bytes, const char* name, const Scheduler& scheduler,
-                    std::pmr::memory_resource& scratch) {
-  const Reading reading{bytes, name, scheduler, scratch};
+                    std::pmr::memory_resource& scratch, Progress& progress) {
+  const Reading reading{bytes, name, scheduler, scratch, progress};
   const FileView view = validate_sections(reading, validate_header(reading));
   validate_directions(reading, view);
   validate_record(reading, view);

@@ -6,8 +6,9 @@
 #include <memory_resource>
 #include <span>
 
+#include "base/progress.h"
 #include "base/scheduler.h"
-#include "format/view.h"
+#include "format/reader.h"
 
 namespace sobb {
 
@@ -17,7 +18,14 @@ struct Reading {
   const char* name;  // of the file, for messages
   const Scheduler& scheduler;
   std::pmr::memory_resource& scratch;
+  Progress& progress;
 };
+
+// The parts of the progress that the steps take, by measured time. Each asks the caller once a
+// MiB or so, that it may stop a file of any size at once.
+inline constexpr double kChecksumsEnd = 0.7;
+inline constexpr double kBlocksEnd = 0.8;
+inline constexpr double kNodesEnd = 0.9;
 
 // Largest magnitudes that a file may hold. A vertex and the centre are within 2^60 in each axis,
 // so no vertex is further than 2^62 from the centre, along any direction.

@@ -46,11 +46,13 @@ void validate_block(const TriangleBlock& block, uint64_t index, const Reading& r
 
 void validate_blocks(const Reading& reading, const FileView& view) {
   const uint64_t triangle_count = view.header->triangle_count;
+  ProgressStage stage(reading.progress, kChecksumsEnd, kBlocksEnd, view.blocks.size());
   reading.scheduler.for_ranges(view.blocks.size(), kBlocksAtOnce,
                                [&](uint64_t begin, uint64_t end) {
                                  for (uint64_t i = begin; i < end; ++i) {
                                    validate_block(view.blocks[i], i, reading, triangle_count);
                                  }
+                                 stage.advance(end - begin);
                                });
 }
 

@@ -161,8 +161,10 @@ void validate_node(const Reading& reading, const FileView& view, uint64_t index)
 
 void validate_nodes(const Reading& reading, const FileView& view) {
   const auto validate = view.header->width == 4 ? validate_node<4> : validate_node<8>;
+  ProgressStage stage(reading.progress, kBlocksEnd, kNodesEnd, view.node_count);
   reading.scheduler.for_ranges(view.node_count, kNodesAtOnce, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) validate(reading, view, i);
+    stage.advance(end - begin);
   });
 }
 

@@ -33,7 +33,8 @@ void validate_ranges(const Reading& reading, std::span<const Section> sections) 
 
 // Sections are disjoint, and what lies between them is zero: with the checksums, no byte of the
 // file can change unnoticed.
-void validate_gaps(const Reading& reading, std::span<const Section> sections) {
+void validate_gaps(const Reading& reading, std::span<const Section> sections,
+                   ProgressStage& stage) {
   std::array<Section, kMaxSections> storage;
   const std::span sorted = std::span(storage).first(sections.size());
   std::ranges::copy(sections, sorted.begin());
@@ -41,11 +42,14 @@ void validate_gaps(const Reading& reading, std::span<const Section> sections) {
 
   uint64_t end = sizeof(FileHeader) + sections.size_bytes();
   const auto expect_zero = [&](uint64_t next) {
-    const auto gap = reading.bytes.subspan(end, next - end);
-    const auto set = std::ranges::find_if(gap, [](std::byte b) { return b != std::byte{0}; });
-    if (set != gap.end()) {
-      fail(SOBB_ERROR_FORMAT_SECTION, "%s: byte %" PRIu64 " is in no section and not zero",
-           reading.name, end + static_cast<uint64_t>(set - gap.begin()));
+    for (uint64_t begin = end; begin < next; begin += kChecksumChunk) {
+      const auto gap = reading.bytes.subspan(begin, std::min(next - begin, kChecksumChunk));
+      const auto set = std::ranges::find_if(gap, [](std::byte b) { return b != std::byte{0}; });
+      if (set != gap.end()) {
+        fail(SOBB_ERROR_FORMAT_SECTION, "%s: byte %" PRIu64 " is in no section and not zero",
+             reading.name, begin + static_cast<uint64_t>(set - gap.begin()));
+      }
+      stage.advance(gap.size());
     }
   };
   for (const Section& section : sorted) {
@@ -91,10 +95,11 @@ Items find_items(const Reading& reading, std::span<const Section> sections, Sect
   return {reading.bytes.data() + section.offset, count};
 }
 
-void validate_checksums(const Reading& reading, std::span<const Section> sections) {
+void validate_checksums(const Reading& reading, std::span<const Section> sections,
+                        ProgressStage& stage) {
   for (const Section& section : sections) {
     const auto bytes = reading.bytes.subspan(section.offset, section.size);
-    if (section_checksum(bytes, reading.scheduler, reading.scratch) != section.checksum) {
+    if (section_checksum(bytes, reading.scheduler, reading.scratch, &stage) != section.checksum) {
       fail(SOBB_ERROR_FORMAT_CHECKSUM,
            "%s: the checksum of the section at offset %" PRIu64 " (id %u) differs", reading.name,
            section.offset, section.id);
@@ -109,7 +114,8 @@ FileView validate_sections(const Reading& reading, const FileHeader& header) {
       reinterpret_cast<const Section*>(reading.bytes.data() + sizeof(FileHeader)),
       header.section_count);
   validate_ranges(reading, sections);
-  validate_gaps(reading, sections);
+  ProgressStage stage(reading.progress, kReadEnd, kChecksumsEnd, reading.bytes.size());
+  validate_gaps(reading, sections, stage);
 
   const Items directions =
       find_items(reading, sections, SectionId::kDirections, "direction table", sizeof(Direction),
@@ -120,7 +126,7 @@ FileView validate_sections(const Reading& reading, const FileHeader& header) {
                                  node_size(header.width), 1, kMaxIndexed);
   const Items blocks = find_items(reading, sections, SectionId::kBlocks, "triangle blocks",
                                   sizeof(TriangleBlock), 1, kMaxIndexed);
-  validate_checksums(reading, sections);
+  validate_checksums(reading, sections, stage);
 
   FileView view;
   view.header = &header;

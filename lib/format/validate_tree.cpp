@@ -9,6 +9,8 @@
 namespace sobb {
 namespace {
 
+constexpr uint64_t kNodesAtOnce = 4096;
+
 // Walks the nodes in the order of the file. References lead forward, so a node's depth is known
 // when the walk comes to it, or it has no parent.
 template <int W>
@@ -22,7 +24,12 @@ class TreeWalk {
 
   void run() {
     depth_[0] = 1;
-    for (uint64_t i = 0; i < view_.node_count; ++i) visit(i);
+    ProgressStage stage(reading_.progress, kNodesEnd, 1, view_.node_count);
+    for (uint64_t begin = 0; begin < view_.node_count; begin += kNodesAtOnce) {
+      const uint64_t end = std::min(view_.node_count, begin + kNodesAtOnce);
+      for (uint64_t i = begin; i < end; ++i) visit(i);
+      stage.advance(end - begin);
+    }
     const auto unused = std::ranges::find(block_used_, false);
     if (unused != block_used_.end()) {
       fail(SOBB_ERROR_FORMAT_REFERENCE, "%s: triangle block %td is in no leaf", reading_.name,

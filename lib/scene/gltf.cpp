@@ -50,12 +50,15 @@ class Primitive {
   uint64_t vertex_count() const { return std::min(corner_count(), positions_.count()); }
 
   void write(const GltfTransform& transform, SceneWriter& writer) const {
+    writer.work(1);
     const uint64_t base = writer.vertex_count();
     if (takes_all_vertices()) {
       for (uint64_t i = 0; i < positions_.count(); ++i) add_vertex(i, transform, writer);
       write_triangles([&](uint64_t i) { return base + checked(i); }, writer);
       return;
     }
+    writer.check_room(positions_.count() * sizeof(uint32_t));
+    writer.work(positions_.count() / 8);
     std::vector<uint32_t> places(positions_.count(), UINT32_MAX);  // within this primitive
     uint32_t taken = 0;
     const auto corner = [&](uint64_t i) {
@@ -130,6 +133,7 @@ class GltfReader {
     uint64_t triangles = 0;
     for_each_mesh(nodes, [&](int mesh, const GltfPlacedNode&) {
       for (const auto& primitive : primitives(mesh)) {
+        writer_.work(1);
         vertices += primitive->vertex_count();
         triangles += primitive->triangle_count();
         writer_.check_counts(vertices, triangles);
@@ -211,7 +215,7 @@ std::vector<GltfCamera> read_gltf(std::string_view bytes, std::string_view path,
                                   SceneWriter& writer) {
   GlbChunks chunks{bytes, std::nullopt};
   if (is_glb(bytes)) chunks = split_glb(bytes, writer.name());
-  const GltfDocument document = parse_gltf(chunks.json, writer.name());
+  const GltfDocument document = parse_gltf(chunks.json, writer);
   GltfBuffers buffers(document.buffers, path, chunks.binary, writer);
   return GltfReader(document, buffers, writer).run();
 }

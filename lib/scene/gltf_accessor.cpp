@@ -77,11 +77,8 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, GltfBuffers& buffers, i
   if (count_ == 0) wrong("has no elements");
   if (accessor.bufferView >= 0) {
     elements_ = range(accessor.bufferView, accessor.byteOffset, count_, element_);
-  } else {
-    // Zeros that no file backs: few words must not make many bytes.
-    constexpr uint64_t kMost = 1 << 20;
-    if (count_ > kMost)
-      wrong("has no bufferView for its %llu elements", static_cast<unsigned long long>(count_));
+  } else if (!buffers_.take_zeros(count_)) {
+    wrong("has no bufferView for its %llu elements", static_cast<unsigned long long>(count_));
   }
   if (accessor.sparse.isSparse || accessor.bufferView < 0) substitute(accessor);
 }
@@ -131,6 +128,7 @@ GltfAccessor::Range GltfAccessor::range(int index, uint64_t offset, uint64_t cou
 
 // A dense copy of the elements, or zeros without a view, with the sparse ones in their places.
 void GltfAccessor::substitute(const tinygltf::Accessor& accessor) {
+  buffers_.hold(count_ * element_);
   dense_.resize(size_t(count_ * element_));
   if (elements_.data != nullptr) {
     for (uint64_t i = 0; i < count_; ++i) {

@@ -10,6 +10,8 @@
 namespace sobb {
 namespace {
 
+constexpr uint64_t kMostZeros = 1 << 20;  // elements, in all accessors
+
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
   if (c >= 'a' && c <= 'f') return c - 'a' + 10;
@@ -43,6 +45,17 @@ void GltfBuffers::refuse(size_t index, const std::string& cause) const {
        what.c_str(), cause.c_str());
 }
 
+bool GltfBuffers::take_zeros(uint64_t elements) {
+  if (elements > kMostZeros - zeros_) return false;
+  zeros_ += elements;
+  return true;
+}
+
+void GltfBuffers::hold(uint64_t bytes) {
+  writer_.hold(bytes);
+  writer_.work(bytes / 16);
+}
+
 std::string_view GltfBuffers::decoded(size_t index) {
   const std::string_view uri = buffers_[index].uri;
   const size_t comma = uri.find(',');
@@ -66,11 +79,11 @@ std::string_view GltfBuffers::file(size_t index) {
   const auto found = files_.find(folder + relative);
   if (found != files_.end()) return found->second.view();
   try {
-    FileBytes bytes = read_file(folder + relative, writer_.memory_left());
+    FileBytes bytes = read_file(folder + relative, writer_);
     writer_.hold(bytes.size);
     return (files_[folder + relative] = std::move(bytes)).view();
   } catch (const Error& error) {
-    if (error.status == SOBB_ERROR_MEMORY_LIMIT) throw;
+    if (error.status != SOBB_ERROR_FILE_OPEN && error.status != SOBB_ERROR_FILE_READ) throw;
     refuse(index, std::string("cannot be read: ") + error.what());
   }
 }

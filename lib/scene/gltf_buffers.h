@@ -23,6 +23,12 @@ class GltfBuffers {
 
   size_t count() const { return buffers_.size(); }
 
+  // Whether an accessor may have so many zeros that no buffer backs: few words must not make many
+  // bytes.
+  bool take_zeros(uint64_t elements);
+  // An accessor holds bytes of its own. Error MEMORY_LIMIT.
+  void hold(uint64_t bytes);
+
   // The bytes of buffer `index` < count(), as many as declared. Error SCENE_REFERENCE with the URI
   // where it is missing or shorter.
   std::string_view bytes(size_t index);
@@ -37,6 +43,7 @@ class GltfBuffers {
   std::string_view path_;
   std::optional<std::string_view> binary_;
   SceneWriter& writer_;
+  uint64_t zeros_ = 0;
   std::vector<std::optional<std::string_view>> fetched_;
   std::map<size_t, std::string> decoded_;
   std::map<std::string, FileBytes> files_;  // by path, since buffers may share one

@@ -276,22 +276,60 @@ void Filter::check_extensions() const {
   }
 }
 
+// A text that is being written doubles, the old one living until it is copied.
+constexpr uint64_t kGrowing = 3;
+
+// What TinyGLTF's structs and ours take of an element, at most: a node with a camera, placed.
+constexpr uint64_t kElementBytes = 2560;
+
+// The text that a tree is written to: numbers may become longer, as 1e15 does.
+uint64_t written_bytes(const JsonSize& size) { return size.string_bytes + 4 * size.other_bytes; }
+
+uint64_t count_elements(const json& document) {
+  uint64_t count = 0;
+  for (const json& part : document) {
+    if (!part.is_array()) continue;
+    count += part.size();
+    for (const json& element : part) {
+      const auto primitives = element.find("primitives");
+      if (primitives != element.end()) count += primitives->size();
+    }
+  }
+  return count;
+}
+
+// What lives on until the scene is made: the model, with its strings and numbers, and the URIs.
+void hold_document(const GltfDocument& document, const JsonSize& size, uint64_t elements,
+                   SceneWriter& writer) {
+  writer.hold(elements * kElementBytes + 2 * size.string_bytes + kGrowing * 8 * size.commas);
+  for (const GltfBuffer& buffer : document.buffers) writer.hold(buffer.uri.size());
+}
+
 }  // namespace
 
-GltfDocument parse_gltf(std::string_view text, const std::string& name) {
+GltfDocument parse_gltf(std::string_view text, SceneWriter& writer) {
+  const std::string& name = writer.name();
   GltfDocument result;
   std::string filtered;
+  uint64_t elements = 0;
   {
-    const json document = parse_json(text, name);
+    const json document = parse_json(text, name, writer);
+    const JsonSize size = measure_json(text);
+    check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size), name, writer);
     const Filter filter(document, name);
     filter.check_extensions();
-    filtered = filter.filtered().dump();
+    const json wanted = filter.filtered();
+    elements = count_elements(wanted);
+    filtered = wanted.dump();
     result.buffers = filter.buffers();
     result.quantized = filter.uses("KHR_mesh_quantization");
   }
   if (filtered.size() > UINT_MAX) {
     fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: JSON of 4 GiB or more", name.c_str());
   }
+  const JsonSize size = measure_json(filtered);
+  check_json_room(size.parse_bytes() + filtered.size() + elements * kElementBytes, name, writer);
+  hold_document(result, size, elements, writer);
   std::string error;
   std::string warning;
   tinygltf::TinyGLTF reader;

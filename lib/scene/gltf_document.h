@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/gltf_model.h"
+#include "scene/scene_writer.h"
 
 namespace sobb {
 
@@ -21,12 +22,13 @@ struct GltfDocument {
   bool quantized = false;           // KHR_mesh_quantization: positions may be integers
 };
 
-// Errors: SCENE_SYNTAX with the element's place, SCENE_UNSUPPORTED with the extension.
+// Errors: SCENE_SYNTAX with the element's place, SCENE_UNSUPPORTED with the extension; MEMORY_LIMIT
+// before TinyGLTF would take more than the writer has left.
 //
 // TinyGLTF drops what it cannot parse, takes a fraction for a missing index, and trusts images to
 // lie in their buffers. So it is given a document of ours, with the members that geometry needs,
 // each of the type and range that the specification (glTF 2.0) says. Nor does it see the buffers,
 // which it would read at once, one copy each: GltfBuffers does that.
-GltfDocument parse_gltf(std::string_view text, const std::string& name);
+GltfDocument parse_gltf(std::string_view text, SceneWriter& writer);
 
 }  // namespace sobb

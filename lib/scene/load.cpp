@@ -57,18 +57,18 @@ bool is_known(const std::string& ending) {
 }
 
 void load_builtin(const std::string& source, const char* views_path, uint64_t memory_limit,
-                  Scene& scene) {
+                  Progress* progress, Scene& scene) {
   const BuiltinName name = parse_builtin(source);
-  SceneWriter writer(source, memory_limit, scene);
+  SceneWriter writer(source, memory_limit, scene, progress);
   std::vector<sobb_view> views = make_builtin(name, writer);
   writer.finish();
-  if (views_path != nullptr) scene.views = read_views(views_path, name.scene);
+  if (views_path != nullptr) scene.views = read_views(views_path, name.scene, writer);
   for (sobb_view& view : scene.views) view = turn_of(name).view(view);
   if (scene.views.empty()) scene.views = std::move(views);
 }
 
 void load_file(const std::string& path, const char* views_path, uint64_t memory_limit,
-               Scene& scene) {
+               Progress* progress, Scene& scene) {
   const PathParts parts = split_path(path);
   const TextFormat format = text_format(parts.ending);
   if (!is_known(parts.ending)) {
@@ -76,10 +76,10 @@ void load_file(const std::string& path, const char* views_path, uint64_t memory_
          "%s: unknown ending '%s'; known are .gltf, .glb, .obj, .ply, .stl, .off, and builtin:NAME",
          path.c_str(), parts.ending.c_str());
   }
-  SceneWriter writer(path, memory_limit, scene);
+  SceneWriter writer(path, memory_limit, scene, progress);
   std::vector<GltfCamera> cameras;
   {
-    const FileBytes file = read_file(path, writer.memory_left());
+    const FileBytes file = read_file(path, writer);
     writer.hold(file.size);
     if (format == nullptr) {
       cameras = read_gltf(file.view(), path, writer);
@@ -89,9 +89,11 @@ void load_file(const std::string& path, const char* views_path, uint64_t memory_
   }
   writer.finish();
 
-  if (views_path != nullptr) scene.views = read_views(views_path, parts.stem);
+  if (views_path != nullptr) scene.views = read_views(views_path, parts.stem, writer);
   const std::string beside = parts.folder + "cameras.json";
-  if (scene.views.empty() && file_exists(beside)) scene.views = read_views(beside, parts.stem);
+  if (scene.views.empty() && file_exists(beside)) {
+    scene.views = read_views(beside, parts.stem, writer);
+  }
   if (scene.views.empty()) scene.views = camera_views(cameras, half_diagonal(scene));
   if (!scene.views.empty()) return;
   scene.views.push_back(default_view(scene));
@@ -111,16 +113,17 @@ size_t find_turn(const std::string& source) {
 
 }  // namespace
 
-Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit) {
+Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit,
+                 Progress* progress) {
   Scene scene;
   if (is_builtin(source)) {
-    load_builtin(source, views_path, memory_limit, scene);
+    load_builtin(source, views_path, memory_limit, progress, scene);
     return scene;
   }
   const size_t at = find_turn(source);
   const double degrees = at == std::string::npos ? 0 : parse_degrees(source, source.substr(at + 1));
-  load_file(source.substr(0, at), views_path, memory_limit, scene);
-  if (degrees != 0) turn_scene(source, degrees, scene);
+  load_file(source.substr(0, at), views_path, memory_limit, progress, scene);
+  if (degrees != 0) turn_scene(source, degrees, scene, progress);
   return scene;
 }
 

@@ -8,6 +8,8 @@
 namespace sobb {
 namespace {
 
+constexpr size_t kIndicesAtOnce = 3 << 18;  // the caller is asked between them
+
 // Twice the triangle's area is |(b - a) x (c - a)|; the products are exact in double but for the
 // edges' own rounding.
 bool has_area(const float* a, const float* b, const float* c) {
@@ -22,11 +24,15 @@ bool has_area(const float* a, const float* b, const float* c) {
 
 }  // namespace
 
-void measure(Scene& scene) {
+void measure(Scene& scene, Progress* progress, double progress_begin) {
   scene.degenerate_count = 0;
   scene.bounds_min.fill(std::numeric_limits<float>::infinity());
   scene.bounds_max.fill(-std::numeric_limits<float>::infinity());
-  for (size_t i = 0; i < scene.indices.size(); i += 3) {
+  const size_t size = scene.indices.size();
+  for (size_t i = 0; i < size; i += 3) {
+    if (progress != nullptr && i % kIndicesAtOnce == 0) {
+      progress->check(progress_begin, 1, double(i) / double(size));
+    }
     const float* corners[3];
     for (int c = 0; c < 3; ++c) {
       corners[c] = &scene.vertices[size_t(3) * scene.indices[i + c]];

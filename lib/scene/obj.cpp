@@ -18,7 +18,7 @@ constexpr int kMaxVertexNumbers = 7;  // x y z, a weight, a colour
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, const char* name, SceneWriter& writer)
-      : text_(bytes, name), writer_(writer), first_vertex_(writer.vertex_count()) {}
+      : text_(bytes, name, &writer), writer_(writer), first_vertex_(writer.vertex_count()) {}
 
   void read() {
     while (text_.next_line()) {
@@ -48,7 +48,7 @@ class ObjReader {
   void read_face() {
     corners_.clear();
     for (std::string_view word = text_.word(); !word.empty(); word = text_.word()) {
-      corners_.push_back(read_corner(word));
+      writer_.push_corner(corners_, read_corner(word));
     }
     writer_.add_polygon(corners_, [this] { return text_.place(); });
   }

@@ -13,6 +13,7 @@ namespace sobb {
 namespace {
 
 constexpr double kMostDegrees = 360;
+constexpr size_t kNumbersAtOnce = 3 << 18;  // the caller is asked between them
 constexpr float kLargest = 0x1p60F;
 
 Vec3 widen(const float* v) { return {v[0], v[1], v[2]}; }
@@ -56,10 +57,11 @@ double parse_degrees(const std::string& source, std::string_view text) {
   return degrees;
 }
 
-void turn_scene(const std::string& source, double degrees, Scene& scene) {
+void turn_scene(const std::string& source, double degrees, Scene& scene, Progress* progress) {
   const Vec3 centre = 0.5 * (widen(scene.bounds_min.data()) + widen(scene.bounds_max.data()));
   const ObliqueTurn turn(degrees, centre);
   for (size_t i = 0; i < scene.vertices.size(); i += 3) {
+    if (progress != nullptr && i % kNumbersAtOnce == 0) progress->check(1, 1, 1);
     float* vertex = &scene.vertices[i];
     narrow(turn.point(widen(vertex)), vertex);
     if (std::any_of(vertex, vertex + 3, [](float x) { return std::fabs(x) > kLargest; })) {
@@ -67,7 +69,7 @@ void turn_scene(const std::string& source, double degrees, Scene& scene) {
     }
   }
   for (sobb_view& view : scene.views) view = turn.view(view);
-  measure(scene);
+  measure(scene, progress, 1);
 }
 
 }  // namespace sobb

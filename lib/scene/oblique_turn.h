@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/progress.h"
 #include "scene/builtin_math.h"
 #include "scene/scene.h"
 
@@ -29,8 +30,8 @@ class ObliqueTurn {
 // number from -360 to 360.
 double parse_degrees(const std::string& source, std::string_view text);
 
-// Turns a finished scene and its views about the centre of its box, and measures it again. Error
-// TOO_LARGE, naming `source`, where a vertex comes to lie beyond 2^60.
-void turn_scene(const std::string& source, double degrees, Scene& scene);
+// Turns a finished scene and its views about the centre of its box, and measures it again. Errors:
+// TOO_LARGE, naming `source`, where a vertex comes to lie beyond 2^60; CANCELLED.
+void turn_scene(const std::string& source, double degrees, Scene& scene, Progress* progress);
 
 }  // namespace sobb

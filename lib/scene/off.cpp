@@ -84,7 +84,7 @@ void read_vertex(TextReader& text, Extras extras, SceneWriter& writer) {
 }  // namespace
 
 void read_off(std::string_view bytes, const char* name, SceneWriter& writer) {
-  TextReader text(bytes, name);
+  TextReader text(bytes, name, &writer);
   const Extras extras = read_keyword(text);
   start_counts(text);
   const uint64_t vertices = text.count("the count of vertices", UINT32_MAX);
@@ -111,7 +111,7 @@ void read_off(std::string_view bytes, const char* name, SceneWriter& writer) {
     next_item(text, "face", i, faces);
     corners.clear();
     for (uint64_t left = text.count("the count of corners", UINT32_MAX); left > 0; --left) {
-      corners.push_back(first_vertex + text.vertex_index(vertices));
+      writer.push_corner(corners, first_vertex + text.vertex_index(vertices));
     }
     writer.add_polygon(corners, [&text] { return text.place(); });
     while (!text.at_line_end()) text.number("a colour");

@@ -134,7 +134,7 @@ void read_faces(const PlyLayout& layout, Items& items, SceneWriter& writer) {
       }
       corners.clear();
       for (uint64_t left = items.length(properties[p]); left > 0; --left) {
-        corners.push_back(first_vertex + items.vertex_index(properties[p], vertices));
+        writer.push_corner(corners, first_vertex + items.vertex_index(properties[p], vertices));
       }
     }
     items.end();
@@ -168,7 +168,7 @@ void read_elements(const PlyHeader& header, const PlyLayout& layout, Items items
 }  // namespace
 
 void read_ply(std::string_view bytes, const char* name, SceneWriter& writer) {
-  TextReader text(bytes, name);
+  TextReader text(bytes, name, &writer);
   const PlyHeader header = read_ply_header(text);
   const PlyLayout layout = find_layout(header, text);
   if (header.encoding == PlyEncoding::kAscii) {
@@ -177,7 +177,8 @@ void read_ply(std::string_view bytes, const char* name, SceneWriter& writer) {
   }
   const std::endian order =
       header.encoding == PlyEncoding::kLittleEndian ? std::endian::little : std::endian::big;
-  read_elements(header, layout, PlyBinaryItems(text.text_after_line(), order, name), writer);
+  read_elements(header, layout, PlyBinaryItems(text.text_after_line(), order, name, writer),
+                writer);
 }
 
 }  // namespace sobb

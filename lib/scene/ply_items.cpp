@@ -27,6 +27,7 @@ const char* PlyBinaryItems::take(uint64_t bytes) {
   }
   const char* taken = at_;
   at_ += bytes;
+  pace_.at(at_);
   return taken;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "scene/pace.h"
 #include "scene/ply_header.h"
 #include "scene/text_reader.h"
 
@@ -42,8 +43,12 @@ class PlyTextItems {
 // Values packed without gaps.
 class PlyBinaryItems {
  public:
-  PlyBinaryItems(std::string_view bytes, std::endian order, const char* name)
-      : at_(bytes.data()), end_(bytes.data() + bytes.size()), order_(order), name_(name) {}
+  PlyBinaryItems(std::string_view bytes, std::endian order, const char* name, SceneWriter& writer)
+      : at_(bytes.data()),
+        end_(bytes.data() + bytes.size()),
+        pace_(bytes, &writer),
+        order_(order),
+        name_(name) {}
 
   void begin(const PlyElement& element, uint64_t index) {
     element_ = &element;
@@ -66,6 +71,7 @@ class PlyBinaryItems {
 
   const char* at_;
   const char* end_;
+  Pace pace_;
   std::endian order_;
   const char* name_;
   const PlyElement* element_ = nullptr;

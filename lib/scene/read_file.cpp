@@ -15,6 +15,8 @@
 namespace sobb {
 namespace {
 
+constexpr size_t kReadAtOnce = size_t(1) << 24;  // the caller is asked between them
+
 std::string reason() { return std::generic_category().message(errno); }
 
 class Descriptor {
@@ -36,7 +38,7 @@ class Descriptor {
 
 }  // namespace
 
-FileBytes read_file(const std::string& path, uint64_t most) {
+FileBytes read_file(const std::string& path, SceneWriter& writer) {
   const Descriptor file(path);
   struct stat status {};
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
@@ -47,14 +49,15 @@ FileBytes read_file(const std::string& path, uint64_t most) {
   }
   FileBytes bytes;
   bytes.size = size_t(status.st_size);
-  if (bytes.size > most) {
+  if (bytes.size > writer.memory_left()) {
     fail(SOBB_ERROR_MEMORY_LIMIT, "%s: the file's %zu bytes exceed the memory limit", path.c_str(),
          bytes.size);
   }
   bytes.data = std::make_unique_for_overwrite<char[]>(bytes.size);
   size_t done = 0;
   while (done < bytes.size) {
-    const size_t step = std::min<size_t>(bytes.size - done, size_t(1) << 30);
+    writer.work(kReadAtOnce);
+    const size_t step = std::min<size_t>(bytes.size - done, kReadAtOnce);
     const ssize_t got = ::read(file.number(), bytes.data.get() + done, step);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "scene/scene_writer.h"
+
 namespace sobb {
 
 struct FileBytes {
@@ -17,8 +19,8 @@ struct FileBytes {
 };
 
 // Errors: FILE_OPEN (missing, no permission, no regular file), FILE_READ, MEMORY_LIMIT for more
-// than `most` bytes.
-FileBytes read_file(const std::string& path, uint64_t most);
+// bytes than the writer has left, CANCELLED.
+FileBytes read_file(const std::string& path, SceneWriter& writer);
 
 bool file_exists(const std::string& path);
 

@@ -16,6 +16,15 @@ namespace {
 
 constexpr uint64_t kMaxVertices = uint64_t(1) << 32;
 
+// The caller is asked so often, in vertices: some milliseconds.
+constexpr uint64_t kToldEvery = 1 << 16;
+
+// Reading ends here; the rest is measuring what was read.
+constexpr double kReadEnd = 0.9;
+
+// A mesh in an array that doubles, the old one living until it is moved.
+constexpr uint64_t kMeshBytes = 3 * sizeof(SceneMesh);
+
 // Half as much again for an array of triples that is full, so that growing stays cheap.
 uint64_t roomy(uint64_t size, uint64_t max_triples) {
   return std::min(3 * max_triples, std::max<uint64_t>(3 * 64, size + size / 2 + 3));
@@ -23,12 +32,30 @@ uint64_t roomy(uint64_t size, uint64_t max_triples) {
 
 }  // namespace
 
-SceneWriter::SceneWriter(std::string name, uint64_t memory_limit, Scene& scene)
-    : name_(std::move(name)), memory_limit_(memory_limit), scene_(scene) {}
+SceneWriter::SceneWriter(std::string name, uint64_t memory_limit, Scene& scene, Progress* progress)
+    : name_(std::move(name)),
+      memory_limit_(memory_limit),
+      scene_(scene),
+      progress_(progress),
+      until_told_(kToldEvery) {}
 
 void SceneWriter::hold(uint64_t bytes) {
-  if (bytes > memory_left()) refuse_memory(bytes);
+  check_room(bytes);
   held_ += bytes;
+}
+
+void SceneWriter::check_room(uint64_t bytes) const {
+  if (bytes > memory_left()) refuse_memory(bytes);
+}
+
+void SceneWriter::reach(double fraction) {
+  reached_ = fraction;
+  tell();
+}
+
+void SceneWriter::tell() {
+  until_told_ = kToldEvery;
+  if (progress_ != nullptr) progress_->check(0, kReadEnd, reached_);
 }
 
 uint64_t SceneWriter::memory_left() const {
@@ -47,7 +74,10 @@ void SceneWriter::refuse_memory(uint64_t bytes) const {
 
 void SceneWriter::begin_mesh(std::string name) {
   end_mesh();
-  scene_.meshes.push_back({valid_utf8(std::move(name)), scene_.indices.size() / 3, 0});
+  work(1);
+  name = valid_utf8(std::move(name));
+  hold(kMeshBytes + name.capacity());
+  scene_.meshes.push_back({std::move(name), scene_.indices.size() / 3, 0});
 }
 
 void SceneWriter::end_mesh() {
@@ -59,7 +89,9 @@ void SceneWriter::end_mesh() {
   }
   SceneMesh& mesh = scene_.meshes.back();
   mesh.triangle_count = triangles - mesh.first_triangle;
-  if (mesh.triangle_count == 0) scene_.meshes.pop_back();
+  if (mesh.triangle_count > 0) return;
+  held_ -= kMeshBytes + mesh.name.capacity();
+  scene_.meshes.pop_back();
 }
 
 void SceneWriter::refuse_vertex(float x, float y, float z, const std::string& place) const {
@@ -86,8 +118,15 @@ void SceneWriter::refuse_polygon(std::span<const uint64_t> corners,
 // moved, so the new ones come on top.
 template <class T>
 void SceneWriter::reserve(std::vector<T>& array, uint64_t size) {
-  if (size * sizeof(T) > memory_left()) refuse_memory(size * sizeof(T));
+  check_room(size * sizeof(T));
   array.reserve(size);
+}
+
+// Its capacity counts as held, unlike those of the scene's arrays, which memory_left() knows.
+void SceneWriter::grow_corners(std::vector<uint64_t>& corners) {
+  const uint64_t old = corners.capacity() * sizeof(uint64_t);
+  reserve(corners, std::max<uint64_t>(64, 2 * corners.size()));
+  held_ += corners.capacity() * sizeof(uint64_t) - old;
 }
 
 void SceneWriter::grow_vertices() {
@@ -130,7 +169,7 @@ void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
 void SceneWriter::finish() {
   end_mesh();
   if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
-  measure(scene_);
+  measure(scene_, progress_, kReadEnd);
 }
 
 }  // namespace sobb

@@ -84,7 +84,7 @@ void read_facet(TextReader& text, SceneWriter& writer) {
 }
 
 void read_ascii(std::string_view bytes, const char* name, SceneWriter& writer) {
-  TextReader text(bytes, name);
+  TextReader text(bytes, name, &writer);
   while (text.next_line_with_words()) {
     text.expect_word("solid");
     writer.begin_mesh(std::string(text.rest_of_line()));

@@ -60,8 +60,8 @@ std::errc parse_integer(std::string_view word, T& value) {
 
 }  // namespace
 
-TextReader::TextReader(std::string_view bytes, const char* name)
-    : at_(bytes.data()), end_(bytes.data() + bytes.size()), name_(name) {
+TextReader::TextReader(std::string_view bytes, const char* name, SceneWriter* writer)
+    : at_(bytes.data()), end_(bytes.data() + bytes.size()), pace_(bytes, writer), name_(name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
 }
@@ -80,6 +80,7 @@ const char* TextReader::after_line_end(const char* line_end) const {
 bool TextReader::next_line() {
   if (line_ > 0) at_ = after_line_end(line_end(at_));
   if (at_ == end_) return false;
+  pace_.at(at_);
   ++line_;
   return true;
 }
@@ -97,6 +98,7 @@ bool TextReader::ends_word(const char* p) const {
 }
 
 void TextReader::skip_blanks() {
+  pace_.at(at_);
   for (; at_ != end_ && !is_line_end(*at_) && ends_word(at_); ++at_) {
     if (*at_ != '\\' || at_ + 1 == end_) continue;
     at_ = after_line_end(at_ + 1) - 1;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "scene/pace.h"
 #include "sobb/sobb.h"
 
 namespace sobb {
@@ -19,8 +20,8 @@ namespace sobb {
 // data lines of PLY and STL neither occurs.
 class TextReader {
  public:
-  // `name` is the source, for messages. Both are borrowed.
-  TextReader(std::string_view bytes, const char* name);
+  // `name` is the source, for messages; `writer`, if any, is told how far reading is. Borrowed all.
+  TextReader(std::string_view bytes, const char* name, SceneWriter* writer = nullptr);
 
   // Moves to the next line, at first to line 1; false at the end of the text. What is left of the
   // current line is passed over, without regard to backslashes.
@@ -67,6 +68,7 @@ class TextReader {
 
   const char* at_;
   const char* end_;
+  Pace pace_;
   const char* name_;
   uint64_t line_ = 0;  // 0 before the first
 };

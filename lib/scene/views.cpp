@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "base/error.h"
@@ -37,11 +36,10 @@ bool is_possible(const sobb_view& view) {
 
 class ViewsReader {
  public:
-  explicit ViewsReader(const std::string& path) : path_(path) {}
+  ViewsReader(const std::string& path, SceneWriter& writer) : path_(path), writer_(writer) {}
 
-  std::vector<sobb_view> run(std::string_view stem) const {
-    const FileBytes bytes = read_file(path_, std::numeric_limits<uint64_t>::max());
-    const json document = parse_json(bytes.view(), path_);
+  std::vector<sobb_view> run(std::string_view text, std::string_view stem) const {
+    const json document = parse_json(text, path_, writer_);
     if (!document.is_object()) wrong("the document", "is not an object");
     std::vector<sobb_view> views;
     const auto found = document.find(stem);
@@ -90,6 +88,7 @@ class ViewsReader {
   }
 
   const std::string& path_;
+  SceneWriter& writer_;
 };
 
 Vector box_centre(const Scene& scene) {
@@ -102,8 +101,16 @@ Vector box_centre(const Scene& scene) {
 
 }  // namespace
 
-std::vector<sobb_view> read_views(const std::string& path, std::string_view stem) {
-  return ViewsReader(path).run(stem);
+std::vector<sobb_view> parse_views(std::string_view text, const std::string& path,
+                                   std::string_view stem, SceneWriter& writer) {
+  return ViewsReader(path, writer).run(text, stem);
+}
+
+std::vector<sobb_view> read_views(const std::string& path, std::string_view stem,
+                                  SceneWriter& writer) {
+  const FileBytes bytes = read_file(path, writer);
+  writer.hold(bytes.size);
+  return parse_views(bytes.view(), path, stem, writer);
 }
 
 std::vector<sobb_view> camera_views(const std::vector<GltfCamera>& cameras, double distance) {

@@ -11,9 +11,14 @@
 
 namespace sobb {
 
-// The views that the JSON file at `path` has under `stem`; none if it has no such member. Errors:
-// FILE_OPEN, FILE_READ, SCENE_SYNTAX with the file and the place.
-std::vector<sobb_view> read_views(const std::string& path, std::string_view stem);
+// The views that the JSON text of the file at `path` has under `stem`; none if it has no such
+// member. Errors: SCENE_SYNTAX with the file and the place; MEMORY_LIMIT, CANCELLED by the writer.
+std::vector<sobb_view> parse_views(std::string_view text, const std::string& path,
+                                   std::string_view stem, SceneWriter& writer);
+
+// The same from the file. Errors: FILE_OPEN, FILE_READ too.
+std::vector<sobb_view> read_views(const std::string& path, std::string_view stem,
+                                  SceneWriter& writer);
 
 // A glTF camera looks along its -z, y up. `distance` is that of the view's target. Nothing is made
 // of cameras that see nothing: without a direction, an up or an angle.

@@ -123,6 +123,7 @@ class Volumes : public testing::TestWithParam<Soup> {};
 TEST_P(Volumes, HoldTheTrianglesBelow) {
   const Soup& soup = GetParam();
   const Scheduler serial(1, nullptr);
+  Progress progress(nullptr, nullptr);
   const Mesh mesh(soup.view(), serial);
   for (const uint32_t quality : {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
     for (const uint32_t width : {4, 8}) {
@@ -130,8 +131,8 @@ TEST_P(Volumes, HoldTheTrianglesBelow) {
         SCOPED_TRACE(soup.name + " quality " + std::to_string(quality) + " width " +
                      std::to_string(width) + " k " + std::to_string(k));
         const Built built = build_soup(soup, options_of(k, quality, width));
-        ASSERT_NO_THROW(
-            read_image(built.image.bytes(), "built", serial, *std::pmr::get_default_resource()));
+        ASSERT_NO_THROW(read_image(built.image.bytes(), "built", serial,
+                                   *std::pmr::get_default_resource(), progress));
         const bool split = quality == SOBB_QUALITY_HIGH;
         width == 4 ? check<4>(built.view, mesh, split) : check<8>(built.view, mesh, split);
         if (HasFatalFailure()) return;
@@ -143,14 +144,15 @@ TEST_P(Volumes, HoldTheTrianglesBelow) {
 TEST_P(Volumes, HoldTheTrianglesBelowInAFittedFrame) {
   const Soup& soup = GetParam();
   const Scheduler serial(1, nullptr);
+  Progress progress(nullptr, nullptr);
   const Mesh mesh(soup.view(), serial);
   for (const uint32_t quality : {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
     SCOPED_TRACE(soup.name + " quality " + std::to_string(quality));
     sobb_build_options options = options_of(64, quality, 8);
     options.table = SOBB_TABLE_FITTED;
     const Built built = build_soup(soup, options);
-    ASSERT_NO_THROW(
-        read_image(built.image.bytes(), "built", serial, *std::pmr::get_default_resource()));
+    ASSERT_NO_THROW(read_image(built.image.bytes(), "built", serial,
+                               *std::pmr::get_default_resource(), progress));
     check<8>(built.view, mesh, quality == SOBB_QUALITY_HIGH);
     if (HasFatalFailure()) return;
   }

@@ -265,8 +265,9 @@ void reseal(std::span<std::byte> bytes) {
 
 std::optional<Error> error_of(std::span<const std::byte> bytes, const char* name) {
   try {
+    Progress progress(nullptr, nullptr);
     const FileView view =
-        read_image(bytes, name, Scheduler(1, nullptr), *std::pmr::get_default_resource());
+        read_image(bytes, name, Scheduler(1, nullptr), *std::pmr::get_default_resource(), progress);
     const uint64_t reachable =
         view.header->width == 4 ? count_reachable<4>(view, 0) : count_reachable<8>(view, 0);
     EXPECT_EQ(reachable, view.record->reference_count);

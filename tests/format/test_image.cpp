@@ -49,14 +49,19 @@ TEST(Image, AllocatesZeros) {
   EXPECT_EQ(memory->held(), 0u);
 }
 
+Image read(std::shared_ptr<Memory> memory, const std::string& path) {
+  Progress progress(nullptr, nullptr);
+  return Image::read(std::move(memory), path.c_str(), progress, 1);
+}
+
 TEST(Image, ReadsAndMapsTheSame) {
   const TemporaryFolder folder;
   test::SmallFile file = test::make_small_file(SOBB_VOLUME_SOBB, 8);
   save_atomically(file.bytes(), folder.path("scene.sobb").c_str());
   const auto memory = std::make_shared<Memory>();
-  const Image read = Image::read(memory, folder.path("scene.sobb").c_str());
+  const Image copy = read(memory, folder.path("scene.sobb"));
   const Image mapped = Image::map(folder.path("scene.sobb").c_str());
-  for (const Image* image : {&read, &mapped}) {
+  for (const Image* image : {&copy, &mapped}) {
     EXPECT_TRUE(aligned(*image));
     EXPECT_TRUE(std::ranges::equal(image->bytes(), file.bytes()));
     EXPECT_FALSE(test::error_of(image->bytes()));
@@ -68,7 +73,7 @@ TEST(Image, AnEmptyFileHasNoBytes) {
   const TemporaryFolder folder;
   const std::string path = folder.write("empty", "");
   EXPECT_TRUE(Image::map(path.c_str()).bytes().empty());
-  const Image image = Image::read(std::make_shared<Memory>(), path.c_str());
+  const Image image = read(std::make_shared<Memory>(), path);
   EXPECT_TRUE(image.bytes().empty());
   const auto error = test::error_of(image.bytes());
   ASSERT_TRUE(error);
@@ -90,9 +95,9 @@ TEST(Image, WhatIsNoFileIsNotOpened) {
   };
   for (const Case& c : cases) {
     const std::string expected = c.path + ": " + c.cause;
-    EXPECT_EQ(error_message(SOBB_ERROR_FILE_OPEN,
-                            [&] { Image::read(std::make_shared<Memory>(), c.path.c_str()); }),
-              expected);
+    EXPECT_EQ(
+        error_message(SOBB_ERROR_FILE_OPEN, [&] { read(std::make_shared<Memory>(), c.path); }),
+        expected);
     EXPECT_EQ(error_message(SOBB_ERROR_FILE_OPEN, [&] { Image::map(c.path.c_str()); }), expected);
   }
 }
@@ -101,7 +106,7 @@ TEST(Image, ReadingKeepsTheMemoryLimit) {
   const TemporaryFolder folder;
   const std::string path = folder.write("large", std::string(1000, 'x'));
   const auto memory = std::make_shared<Memory>(nullptr, 999);
-  error_message(SOBB_ERROR_MEMORY_LIMIT, [&] { Image::read(memory, path.c_str()); });
+  error_message(SOBB_ERROR_MEMORY_LIMIT, [&] { read(memory, path); });
   EXPECT_EQ(memory->held(), 0u);
 }
 
@@ -113,7 +118,7 @@ TEST(Image, AHugeFileIsRefusedBeforeItIsRead) {
   std::filesystem::resize_file(path, uint64_t{1} << 42, error);
   if (error) GTEST_SKIP() << "this file system has no files of 4 TiB: " << error.message();
   const auto memory = std::make_shared<Memory>(nullptr, uint64_t{1} << 30);
-  error_message(SOBB_ERROR_MEMORY_LIMIT, [&] { Image::read(memory, path.c_str()); });
+  error_message(SOBB_ERROR_MEMORY_LIMIT, [&] { read(memory, path); });
   EXPECT_EQ(memory->held(), 0u);
 }
 

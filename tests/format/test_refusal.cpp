@@ -333,8 +333,9 @@ TEST(FormatRefusalOrder, DoesNotDependOnThreads) {
   for (const uint32_t threads : {0u, 1u, 2u, 3u}) {
     for (int round = 0; round < 5; ++round) {
       try {
+        Progress progress(nullptr, nullptr);
         read_image(chain.bytes(), "scene.sobb", Scheduler(threads, nullptr),
-                   *std::pmr::get_default_resource());
+                   *std::pmr::get_default_resource(), progress);
         FAIL();
       } catch (const Error& error) {
         EXPECT_EQ(std::string(error.what()).find("scene.sobb: node 3000, child 0: slab 0 [nan"), 0u)

@@ -32,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(VolumesAndWidths, Format,
 TEST_P(Format, OpensAndShowsWhatWasWritten) {
   const Scheduler scheduler(0, nullptr);
   Memory scratch;
-  const FileView view = read_image(file_.bytes(), "scene.sobb", scheduler, scratch);
+  Progress progress(nullptr, nullptr);
+  const FileView view = read_image(file_.bytes(), "scene.sobb", scheduler, scratch, progress);
   EXPECT_EQ(view.header, file_.parts.header);
   EXPECT_EQ(view.directions.data(), file_.parts.directions.data());
   EXPECT_EQ(view.directions.size(), file_.parts.directions.size());

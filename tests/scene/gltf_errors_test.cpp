@@ -153,11 +153,14 @@ TEST(GltfErrors, RefusesOtherJson) {
 }
 
 TEST(GltfErrors, CountsInstancesBeforeTheyTakeMemory) {
-  GltfFile file = square();
-  for (int i = 0; i < 1000; ++i) file.add_root({{"mesh", 0}});
+  GltfFile file;
+  const size_t zeros =
+      file.add("accessors", {{"componentType", 5126}, {"count", 30'000}, {"type", "VEC3"}});
+  file.add_mesh(zeros);
+  for (int i = 0; i < 100; ++i) file.add_root({{"mesh", 0}});
   const std::string bytes = file.glb();
   Scene scene;
-  SceneWriter writer("scene", 20'000, scene);
+  SceneWriter writer("scene", 4'000'000, scene);  // of some 48 million
   try {
     read_gltf(bytes, "scene.glb", writer);
     FAIL();

@@ -56,7 +56,18 @@ typedef struct sobb_scene_options {
    * file `cameras.json` beside the scene, if there is one.
    */
   const char* views_path;
-  uint64_t memory_limit; /**< bytes that the scene may take; 0 for none */
+  /**
+   * Bytes that loading may hold at once, the scene's own included; 0 for none, but for JSON, which
+   * may then take 4 GiB. A small file may ask for a large scene (a glTF that places one mesh many
+   * times), so give a limit with files of unknown origin.
+   */
+  uint64_t memory_limit;
+  /**
+   * As in sobb_build_options; called every few milliseconds, so that it can keep a limit of time.
+   * (Not while TinyGLTF reads its part of a glTF's JSON, some 50 MB a second.)
+   */
+  int (*progress)(void* user, double fraction);
+  void* progress_user;
 } sobb_scene_options;
 
 /** What a scene is; filled by sobb_scene_get_info(). */
@@ -80,7 +91,8 @@ typedef struct sobb_scene_info {
  * @return SOBB_ERROR_FILE_OPEN, _FILE_READ; SOBB_ERROR_SCENE_FORMAT (unknown ending or built-in
  *         name), _SCENE_SYNTAX (the message names the line, element or accessor),
  *         _SCENE_UNSUPPORTED (the extension or feature), _SCENE_REFERENCE (the missing or short
- *         file); SOBB_ERROR_INDEX, _NOT_FINITE, _TOO_LARGE, _EMPTY; _OUT_OF_MEMORY, _MEMORY_LIMIT.
+ *         file); SOBB_ERROR_INDEX, _NOT_FINITE, _TOO_LARGE, _EMPTY; _OUT_OF_MEMORY, _MEMORY_LIMIT,
+ *         _CANCELLED.
  *
  * Views are those of @p options, else of a `cameras.json` beside the file, else the cameras of a
  * glTF, else one default: from the box's centre c with half diagonal h, the eye at

@@ -274,6 +274,9 @@ typedef struct sobb_open_options {
   uint64_t memory_limit; /**< bytes that opening may hold at once; 0 for none */
   const sobb_allocator* allocator;
   const sobb_scheduler* scheduler;
+  /** As in sobb_build_options; called once a MiB or so, so that it can keep a limit of time. */
+  int (*progress)(void* user, double fraction);
+  void* progress_user;
 } sobb_open_options;
 
 /**
@@ -286,7 +289,8 @@ SOBB_API sobb_status sobb_save(const sobb_hierarchy* hierarchy, const char* path
 /**
  * Opens a file and proves it safe to trace: sizes, checksums, every reference, slab and triangle.
  * A file that fails is refused with one status a cause and a message that names file and place.
- * @return SOBB_ERROR_FILE_OPEN, _FILE_READ, any _FORMAT_, _OUT_OF_MEMORY, _MEMORY_LIMIT.
+ * @return SOBB_ERROR_FILE_OPEN, _FILE_READ, any _FORMAT_, _OUT_OF_MEMORY, _MEMORY_LIMIT,
+ *         _CANCELLED.
  * Cost: reads the file once; O(size) in time, and its size in memory (none to speak of if mapped).
  */
 SOBB_API sobb_status sobb_open(const char* path, const sobb_open_options* options,

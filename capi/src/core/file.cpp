@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Saving and opening.
-#include <algorithm>
 #include <utility>
 
 #include "../guard.h"
@@ -11,6 +10,7 @@
 using sobb::guard;
 using sobb::Image;
 using sobb::Memory;
+using sobb::Progress;
 using sobb::require;
 
 namespace {
@@ -26,10 +26,10 @@ sobb_open_options read_open_options(const sobb_open_options* options) {
 
 // Validates an image and makes its handle; `name` is for messages.
 sobb_hierarchy* open_image(std::shared_ptr<Memory> memory, Image image, const char* name,
-                           const sobb_open_options& options) {
+                           const sobb_open_options& options, Progress& progress) {
   const sobb::Scheduler scheduler(options.threads, options.scheduler);
   const sobb::FileView view =
-      sobb::read_image(std::as_const(image).bytes(), name, scheduler, *memory);
+      sobb::read_image(std::as_const(image).bytes(), name, scheduler, *memory, progress);
   return sobb::make_hierarchy(std::move(memory), std::move(image), view);
 }
 
@@ -51,8 +51,11 @@ sobb_status sobb_open(const char* path, const sobb_open_options* options, sobb_h
     require(out, "out");
     const sobb_open_options known = read_open_options(options);
     auto memory = std::make_shared<Memory>(known.allocator, known.memory_limit);
-    Image image = (known.flags & SOBB_OPEN_MAP) != 0 ? Image::map(path) : Image::read(memory, path);
-    *out = open_image(std::move(memory), std::move(image), path, known);
+    Progress progress(known.progress, known.progress_user, "opening");
+    Image image = (known.flags & SOBB_OPEN_MAP) != 0
+                      ? Image::map(path)
+                      : Image::read(memory, path, progress, sobb::kReadEnd);
+    *out = open_image(std::move(memory), std::move(image), path, known, progress);
   });
 }
 
@@ -66,9 +69,10 @@ sobb_status sobb_open_memory(const void* data, uint64_t size, const sobb_open_op
       sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "open options: SOBB_OPEN_MAP is for files");
     }
     auto memory = std::make_shared<Memory>(known.allocator, known.memory_limit);
-    Image image = Image::allocate(memory, size);
-    std::copy_n(static_cast<const std::byte*>(data), size, image.bytes().data());
-    *out = open_image(std::move(memory), std::move(image), "memory", known);
+    Progress progress(known.progress, known.progress_user, "opening");
+    Image image =
+        Image::copy(memory, {static_cast<const std::byte*>(data), size}, progress, sobb::kReadEnd);
+    *out = open_image(std::move(memory), std::move(image), "memory", known, progress);
   });
 }
 

@@ -42,7 +42,8 @@ sobb_status sobb_scene_load(const char* source, const sobb_scene_options* option
     if (known.reserved != 0) {
       sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "sobb_scene_options: reserved is not zero");
     }
-    sobb::Scene scene = sobb::load_scene(source, known.views_path, known.memory_limit);
+    sobb::Progress progress(known.progress, known.progress_user, "loading");
+    sobb::Scene scene = sobb::load_scene(source, known.views_path, known.memory_limit, &progress);
     *out = std::make_unique<sobb_scene>(std::move(scene)).release();
   });
 }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// libFuzzer's entry: each program is compiled with a target of its own.
+#include <cstddef>
+#include <cstdint>
+
+#include "fuzz/targets.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  sobb::fuzz::SOBB_FUZZ_TARGET(std::as_bytes(std::span(data, size)));
+  return 0;
+}
