@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/scheduler.h"
 
+#include <atomic>
 #include <exception>
 #include <mutex>
 
@@ -15,15 +16,17 @@ class Loop {
  public:
   Loop(void (*body)(void*, uint64_t), void* context) : body_(body), context_(context) {}
 
+  // A body above one that failed no longer matters: the rest of a long loop goes by at once.
   void run(uint64_t index) noexcept {
+    if (index > failed_.load(std::memory_order_relaxed)) return;
     const FloatControl control;
     try {
       body_(context_, index);
     } catch (...) {
       const std::scoped_lock lock(mutex_);
-      if (!exception_ || index < index_) {
+      if (index < failed_.load(std::memory_order_relaxed)) {
         exception_ = std::current_exception();
-        index_ = index;
+        failed_.store(index, std::memory_order_relaxed);
       }
     }
   }
@@ -37,7 +40,7 @@ class Loop {
   void* context_;
   std::mutex mutex_;
   std::exception_ptr exception_;
-  uint64_t index_ = 0;
+  std::atomic<uint64_t> failed_{UINT64_MAX};  // the lowest index of which a body threw
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace sobb {
 
 // Thread-safe. Loop bodies run with the default floating-point control word. An exception from a
-// body is rethrown by the loop, once all bodies have ended; of several, the one with the lowest
-// index, so that a message does not depend on the threads. Loops allocate nothing.
+// body is rethrown by the loop, once all bodies below it have ended; of several, the one with the
+// lowest index, so that a message does not depend on the threads. Loops allocate nothing.
 class Scheduler {
  public:
   // `threads` as in sobb_build_options: 1 is serial, 0 all that TBB gives. `callback` may be null.

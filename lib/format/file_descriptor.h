@@ -18,6 +18,8 @@ class FileDescriptor {
 
   bool valid() const { return descriptor_ >= 0; }
   int get() const { return descriptor_; }
+  // Hands the file over.
+  int release() { return std::exchange(descriptor_, -1); }
   // The status of close(2): some file systems report a failed write only here.
   int close() { return valid() ? ::close(std::exchange(descriptor_, -1)) : 0; }
 

@@ -2,16 +2,14 @@
 """Hierarchies: build, save, open, trace."""
 
 import os
-import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from ctypes import byref, c_uint64, c_void_p
 from types import SimpleNamespace
 from typing import Any, Literal, overload
 
 import numpy as np
 
-from sobb import library, structs
+from sobb import interruptible, library, structs
 from sobb.dtypes import count_dtype, hit_dtype, ray_dtype
 from sobb.library import Handle, check, isa_number, name_of, number_of, unsigned
 from sobb.triangles import TriangleArgument
@@ -41,21 +39,28 @@ class Hierarchy:
         map: bool = False,
         threads: int = 0,
         memory_limit: int = 0,
+        progress: Callable[[float], None] | None = None,
     ) -> "Hierarchy":
         """Opens a .sobb file and proves it safe to trace.
 
         map: trace the file where it lies, instead of a private copy. Nobody may then change or
             truncate it while the hierarchy lives.
         threads: at most this many; 0 for all. memory_limit: in bytes; 0 for none.
+        progress: as in build(); a file that takes too long is given up so.
         """
         options = structs.OpenOptions(
             flags=_OPEN_MAP if map else 0,
             threads=unsigned("threads", threads),
             memory_limit=unsigned("memory_limit", memory_limit, 64),
         )
-        out = c_void_p()
-        check(library.core().sobb_open(library.path_bytes(path), byref(options), byref(out)))
-        return cls(Handle(out, library.core().sobb_release))
+
+        def call(report: Any) -> "Hierarchy":
+            options.progress = report
+            out = c_void_p()
+            check(library.core().sobb_open(library.path_bytes(path), byref(options), byref(out)))
+            return cls(Handle(out, library.core().sobb_release))
+
+        return interruptible.run(call, progress)
 
     @classmethod
     def from_bytes(cls, data: Any, threads: int = 0, memory_limit: int = 0) -> "Hierarchy":
@@ -202,19 +207,6 @@ def build(
     raises cancels the build and comes out of here. So does Ctrl-C.
     """
     argument = TriangleArgument(triangles, faces)
-    stop = threading.Event()
-    raised: list[BaseException] = []
-
-    @structs.Progress
-    def report(_user: int, fraction: float) -> int:
-        try:
-            if progress is not None:
-                progress(fraction)
-        except BaseException as error:  # nothing may pass through the C library
-            raised.append(error)
-            return 1
-        return int(stop.is_set())
-
     options = structs.BuildOptions(
         volume=number_of("volume", VOLUMES, volume),
         k=unsigned("k", k),
@@ -225,21 +217,15 @@ def build(
         threads=unsigned("threads", threads),
         isa=isa_number(isa),
         memory_limit=unsigned("memory_limit", memory_limit, 64),
-        progress=report,
     )
 
-    def call() -> Hierarchy:
+    def call(report: Any) -> Hierarchy:
+        options.progress = report
         out = c_void_p()
         check(library.core().sobb_build(byref(argument.struct), byref(options), byref(out)))
         return Hierarchy(Handle(out, library.core().sobb_release))
 
-    # Python hears of Ctrl-C only between its own instructions, so this thread must not be in C.
-    with ThreadPoolExecutor(1) as worker:
-        try:
-            return worker.submit(call).result()
-        except BaseException as error:
-            stop.set()
-            raise (raised[0] if raised else error) from None
+    return interruptible.run(call, progress)
 
 
 def contiguous_rays(rays: Any) -> np.ndarray:

@@ -3,14 +3,16 @@
 
 import ctypes
 import os
+from collections.abc import Callable
 from ctypes import byref, c_void_p
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
-from sobb import library, structs
+from sobb import interruptible, library, structs
 from sobb.library import Handle, borrow, check
 from sobb.view import View
 
@@ -36,21 +38,28 @@ class Scene:
         source: str | os.PathLike[str],
         views: str | os.PathLike[str] | None = None,
         memory_limit: int = 0,
+        progress: Callable[[float], None] | None = None,
     ) -> "Scene":
         """
         source: a .gltf, .glb, .obj, .ply, .stl or .off file, or
             "builtin:NAME[:TRIANGLES]"; "@DEGREES" behind it turns the scene and its views.
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
-        memory_limit: bytes that the scene may take; 0 for none.
+        memory_limit: bytes that loading may hold at once; 0 for none.
+        progress: as in sobb.build(); a file that takes too long is given up so.
         """
         options = structs.SceneOptions(
             views_path=None if views is None else library.path_bytes(views),
             memory_limit=library.unsigned("memory_limit", memory_limit, 64),
         )
-        out = c_void_p()
         lib = library.scene()
-        check(lib.sobb_scene_load(library.path_bytes(source), byref(options), byref(out)))
-        return cls(Handle(out, lib.sobb_scene_release))
+
+        def call(report: Any) -> "Scene":
+            options.progress = report
+            out = c_void_p()
+            check(lib.sobb_scene_load(library.path_bytes(source), byref(options), byref(out)))
+            return cls(Handle(out, lib.sobb_scene_release))
+
+        return interruptible.run(call, progress)
 
     @property
     def handle(self) -> Handle:

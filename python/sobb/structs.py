@@ -6,7 +6,7 @@ from ctypes import c_char_p, c_double, c_float, c_int, c_uint32, c_uint64, c_voi
 from types import SimpleNamespace
 from typing import Any
 
-#: sobb_build_options::progress: (user, fraction) -> non-zero to cancel.
+#: progress of build, open and scene options: (user, fraction) -> non-zero to cancel.
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_double)
 
 
@@ -58,6 +58,8 @@ class OpenOptions(SizedStruct):
         ("memory_limit", c_uint64),
         ("allocator", c_void_p),
         ("scheduler", c_void_p),
+        ("progress", Progress),
+        ("progress_user", c_void_p),
     ]
 
 
@@ -116,6 +118,8 @@ class SceneOptions(SizedStruct):
         ("reserved", c_uint32),
         ("views_path", c_char_p),
         ("memory_limit", c_uint64),
+        ("progress", Progress),
+        ("progress_user", c_void_p),
     ]
 
 

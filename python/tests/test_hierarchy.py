@@ -199,6 +199,24 @@ def test_what_progress_raises_comes_out(mesh):
         sobb.build(*mesh, progress=refuse)
 
 
+def test_opening_and_loading_may_be_given_up(hierarchy, tmp_path):
+    hierarchy.save(tmp_path / "scene.sobb")
+
+    def refuse(_):
+        raise LookupError("took too long")
+
+    for call in (
+        lambda progress: sobb.Hierarchy.open(tmp_path / "scene.sobb", progress=progress),
+        lambda progress: sobb.Scene.load("builtin:city:100000", progress=progress),
+    ):
+        heard = []
+        call(heard.append).close()
+        assert heard == sorted(heard)
+        assert heard[-1] <= 1
+        with pytest.raises(LookupError, match="too long"):
+            call(refuse)
+
+
 def test_many_threads_trace_one(hierarchy, rays):
     right, results = hierarchy.intersect(rays), [None] * 4
 

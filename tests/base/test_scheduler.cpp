@@ -60,19 +60,19 @@ TEST(Scheduler, RangesCoverAndDependOnCountAndGrainAlone) {
   });
 }
 
-TEST(Scheduler, RethrowsTheExceptionOfTheLowestIndexAfterAllHaveRun) {
+TEST(Scheduler, RethrowsTheExceptionOfTheLowestIndexAfterAllBelowHaveRun) {
   with_each_scheduler([](const Scheduler& scheduler) {
     std::atomic<int> runs{0};
     try {
       scheduler.for_each(100, [&](uint64_t i) {
-        ++runs;
+        if (i <= 7) ++runs;
         if (i % 10 == 7) throw std::runtime_error(std::to_string(i));
       });
       FAIL() << "no exception came";
     } catch (const std::runtime_error& error) {
       EXPECT_STREQ(error.what(), "7");
     }
-    EXPECT_EQ(runs, 100);
+    EXPECT_EQ(runs, 8);
   });
 }
 

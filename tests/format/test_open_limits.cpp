@@ -93,8 +93,9 @@ TEST(OpenLimits, AHugeFileIsGivenUpInTime) {
     file.parts.header->total_size = kHuge;
     // The last section, of the blocks, reaches to the end.
     Section& last = file.sections().back();
-    if (in_section)
+    if (in_section) {
       last.size = (kHuge - last.offset) / sizeof(TriangleBlock) * sizeof(TriangleBlock);
+    }
     const size_t front = sizeof(FileHeader) + file.sections().size_bytes();
     file.parts.header->header_checksum = header_checksum(file.bytes().first(front));
     std::ofstream(path, std::ios::binary)

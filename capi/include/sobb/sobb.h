@@ -281,7 +281,8 @@ typedef struct sobb_open_options {
 
 /**
  * Writes the hierarchy to a file (docs/format.md), atomically: to a temporary name beside it,
- * synced to the disk, then renamed. Whatever happens, @p path is the old file or the new.
+ * synced to the disk, then renamed. Whatever happens, @p path is the old file or the new. A process
+ * that is killed may leave its temporary, `.sobb-N.tmp`; the next save in that folder removes it.
  * @return SOBB_ERROR_FILE_WRITE with the path and the system's reason; SOBB_ERROR_OUT_OF_MEMORY.
  */
 SOBB_API sobb_status sobb_save(const sobb_hierarchy* hierarchy, const char* path);
