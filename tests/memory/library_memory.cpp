@@ -20,7 +20,7 @@ struct Header {
   LibraryMemory* owner;  // null where none
   uint64_t size;
 };
-constexpr size_t kHeaderSize = 64;  // as much as any block's alignment here
+constexpr size_t kHeaderSize = kNewAlignment;
 
 // The file of the program or library that a return address lies in.
 std::string_view module_of(const void* address) {
@@ -50,6 +50,8 @@ bool library_asks() {
   return ours;
 }
 
+}  // namespace
+
 void* new_block(size_t size) noexcept {
   LibraryMemory* owner = counting;
   if (owner != nullptr && !library_asks()) owner = nullptr;
@@ -71,8 +73,6 @@ void delete_block(void* pointer) noexcept {
   }
   std::free(block);
 }
-
-}  // namespace
 
 void Holdings::take(uint64_t size) {
   ++calls;
@@ -111,34 +111,3 @@ void LibraryMemory::deallocate(void* user, void* pointer, size_t size, size_t) {
 }
 
 }  // namespace sobb::test
-
-// The program's operator new, which the libraries use too.
-void* operator new(size_t size) {
-  void* const block = sobb::test::new_block(size);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-void* operator new[](size_t size) { return operator new(size); }
-void* operator new(size_t size, const std::nothrow_t&) noexcept {
-  return sobb::test::new_block(size);
-}
-void* operator new[](size_t size, const std::nothrow_t&) noexcept {
-  return sobb::test::new_block(size);
-}
-// As new_block() aligns; beyond that nobody asks.
-void* operator new(size_t size, std::align_val_t alignment) {
-  return static_cast<size_t>(alignment) <= sobb::test::kHeaderSize ? operator new(size)
-                                                                   : throw std::bad_alloc();
-}
-void operator delete(void* pointer, std::align_val_t) noexcept { operator delete(pointer); }
-void operator delete(void* pointer, size_t, std::align_val_t) noexcept { operator delete(pointer); }
-void operator delete(void* pointer) noexcept { sobb::test::delete_block(pointer); }
-void operator delete[](void* pointer) noexcept { sobb::test::delete_block(pointer); }
-void operator delete(void* pointer, size_t) noexcept { sobb::test::delete_block(pointer); }
-void operator delete[](void* pointer, size_t) noexcept { sobb::test::delete_block(pointer); }
-void operator delete(void* pointer, const std::nothrow_t&) noexcept {
-  sobb::test::delete_block(pointer);
-}
-void operator delete[](void* pointer, const std::nothrow_t&) noexcept {
-  sobb::test::delete_block(pointer);
-}

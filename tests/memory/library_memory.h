@@ -3,11 +3,17 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "sobb/sobb.h"
 
 namespace sobb::test {
+
+// Behind the program's operator new (replaced_new.cpp).
+constexpr size_t kNewAlignment = 64;
+void* new_block(size_t size) noexcept;  // null without memory
+void delete_block(void* pointer) noexcept;
 
 // What is held of one kind of allocation.
 struct Holdings {
