@@ -30,6 +30,14 @@ struct Box {
     }
   }
 
+  // To what both have in common; inside out where that is nothing.
+  void clip(const Box& other) {
+    for (int k = 0; k < 3; ++k) {
+      lower[k] = std::max(lower[k], other.lower[k]);
+      upper[k] = std::min(upper[k], other.upper[k]);
+    }
+  }
+
   bool operator==(const Box& other) const {
     return std::equal(lower, lower + 3, other.lower) && std::equal(upper, upper + 3, other.upper);
   }

@@ -15,32 +15,6 @@ namespace {
 constexpr uint64_t kSubtreeParts = 256;
 constexpr uint64_t kSubtreeReferences = 4096;
 
-// The children of a wide node of the top, where its subtrees are yet unknown: the largest is opened
-// until there are enough. The order is the binary one's.
-uint32_t open_largest(const Topology& topology, const TopologyNode& root, uint32_t width,
-                      const TopologyNode* child[kMaxWidth]) {
-  uint32_t count = 1;
-  child[0] = &root;
-  if (root.is_leaf) return count;
-  double area[kMaxWidth] = {1};
-  while (count < width) {
-    uint32_t widest = kMaxWidth;
-    for (uint32_t i = 0; i < count; ++i) {
-      if (!child[i]->is_leaf && (widest == kMaxWidth || area[i] > area[widest])) widest = i;
-    }
-    if (widest == kMaxWidth) break;
-    const TopologyNode& opened = *child[widest];
-    std::copy_backward(child + widest + 1, child + count, child + count + 1);
-    std::copy_backward(area + widest + 1, area + count, area + count + 1);
-    for (int side = 0; side < 2; ++side) {
-      child[widest + side] = &topology.child(opened, side);
-      area[widest + side] = child[widest + side]->box.half_area();
-    }
-    ++count;
-  }
-  return count;
-}
-
 // Makes a leaf a node's child and takes its blocks.
 void add_leaf(const TopologyNode& leaf, WideNode& node, Part& part) {
   const uint32_t i = node.child_count++;
@@ -52,14 +26,12 @@ void add_leaf(const TopologyNode& leaf, WideNode& node, Part& part) {
 }
 
 // Collapses what lies below a binary node, depth first, siblings next to each other.
-void collapse_subtree(const Topology& topology, const TopologyNode& root, uint32_t width,
-                      Part& part) {
+void collapse_subtree(const LeastCostCut& cut, const TopologyNode& root, Part& part) {
   struct Open {
     const TopologyNode* node;
     uint32_t index;
     uint32_t depth;
   };
-  const LeastCostCut cut(topology, root, width, *part.nodes.get_allocator().resource());
   std::pmr::vector<Open> stack(part.nodes.get_allocator());
   stack.push_back({&root, 0, 1});
   part.nodes.resize(1);
@@ -91,16 +63,15 @@ struct Roots {
   std::pmr::vector<uint32_t> depths;
 };
 
-// Collapses the top, breadth first and greedily, down to children small enough to be subtrees.
-void collapse_top(const Topology& topology, uint32_t width, WideTopology& wide, Roots& roots) {
-  const uint64_t limit =
-      std::max<uint64_t>(kSubtreeReferences, topology.root().count / kSubtreeParts);
-  std::pmr::vector<const TopologyNode*> queue({&topology.root()}, wide.top.nodes.get_allocator());
+// Collapses the top, breadth first, down to children small enough to be subtrees.
+void collapse_top(const LeastCostCut& cut, const TopologyNode& root, uint64_t limit,
+                  WideTopology& wide, Roots& roots) {
+  std::pmr::vector<const TopologyNode*> queue({&root}, wide.top.nodes.get_allocator());
   std::pmr::vector<uint32_t> depth({1U}, wide.top.nodes.get_allocator());
   for (size_t next = 0; next < queue.size(); ++next) {
     WideNode node{};
     const TopologyNode* children[kMaxWidth];
-    const uint32_t count = open_largest(topology, *queue[next], width, children);
+    const uint32_t count = cut.children(*queue[next], children);
     wide.top.depth = std::max(wide.top.depth, depth[next]);
     for (uint32_t i = 0; i < count; ++i) {
       const TopologyNode* child = children[i];
@@ -139,11 +110,13 @@ WideTopology collapse(const Topology& topology, uint32_t width, const Scheduler&
                       std::pmr::memory_resource& memory) {
   WideTopology wide(topology.references(), memory);
   Roots roots{std::pmr::vector<const TopologyNode*>(&memory), std::pmr::vector<uint32_t>(&memory)};
-  collapse_top(topology, width, wide, roots);
+  const uint64_t limit =
+      std::max<uint64_t>(kSubtreeReferences, topology.root().count / kSubtreeParts);
+  const LeastCostCut cut(topology, width, limit, scheduler, memory);
+  collapse_top(cut, topology.root(), limit, wide, roots);
   for (size_t i = 0; i < wide.places.size(); ++i) wide.subtrees.emplace_back(memory);
-  scheduler.for_each(wide.subtrees.size(), [&](uint64_t i) {
-    collapse_subtree(topology, *roots.nodes[i], width, wide.subtrees[i]);
-  });
+  scheduler.for_each(wide.subtrees.size(),
+                     [&](uint64_t i) { collapse_subtree(cut, *roots.nodes[i], wide.subtrees[i]); });
 
   wide.depth = wide.top.depth;
   wide.node_count = wide.top.nodes.size();

@@ -61,9 +61,8 @@ struct WideTopology {
       : references(references), top(memory), subtrees(&memory), places(&memory) {}
 };
 
-// Of the wide nodes that a subtree can have, those of the least cost (least_cost_cut.h); in the
-// top, some hundred nodes, the child of the largest box is opened until there are `width`. Borrows
-// the topology's references, not its nodes.
+// Of the wide nodes that there can be, those of the least cost (least_cost_cut.h). Borrows the
+// topology's references, not its nodes.
 WideTopology collapse(const Topology& topology, uint32_t width, const Scheduler& scheduler,
                       std::pmr::memory_resource& memory);
 

@@ -7,8 +7,6 @@
 #include <new>
 #include <vector>
 
-#include "build/clip.h"
-#include "build/sah_costs.h"
 #include "format/layout.h"
 
 #if SOBB_EMBREE_MAJOR >= 4
@@ -21,13 +19,6 @@ namespace sobb {
 namespace {
 
 constexpr uint64_t kGrain = 1 << 15;
-// Room for references that spatial splits add, as a part of the triangles.
-constexpr double kSplitRoom = 0.3;
-
-struct Reference {
-  Box box;
-  uint32_t primitive;
-};
 
 struct EmbreeNode {
   uint64_t reference_count;  // below it
@@ -40,7 +31,7 @@ struct EmbreeInner : EmbreeNode {
 };
 
 struct EmbreeLeaf : EmbreeNode {
-  Reference* references;  // by rising primitive, then box; parts of one triangle are one
+  uint32_t* primitives;  // rising
 };
 
 Box to_box(const RTCBounds& bounds) {
@@ -48,23 +39,9 @@ Box to_box(const RTCBounds& bounds) {
           {bounds.upper_x, bounds.upper_y, bounds.upper_z}};
 }
 
-Box to_box(const RTCBuildPrimitive& primitive) {
-  return {{primitive.lower_x, primitive.lower_y, primitive.lower_z},
-          {primitive.upper_x, primitive.upper_y, primitive.upper_z}};
-}
-
-void to_bounds(const Box& box, RTCBounds& bounds) {
-  bounds = {box.lower[0], box.lower[1], box.lower[2], 0,
-            box.upper[0], box.upper[1], box.upper[2], 0};
-}
-
 RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
   return {box.lower[0], box.lower[1], box.lower[2], 0,
           box.upper[0], box.upper[1], box.upper[2], index};
-}
-
-RTCBuildQuality to_embree(sobb_quality quality) {
-  return quality == SOBB_QUALITY_LOW ? RTC_BUILD_QUALITY_LOW : RTC_BUILD_QUALITY_HIGH;
 }
 
 // What Embree's callbacks see. They run on several threads at once and may not throw.
@@ -130,43 +107,16 @@ struct EmbreeBuilder {
   static void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
                            size_t count, void* user) {
     void* at = static_cast<EmbreeBuilder*>(user)->allocate(
-        allocator, sizeof(EmbreeLeaf) + count * sizeof(Reference), alignof(EmbreeLeaf));
+        allocator, sizeof(EmbreeLeaf) + count * sizeof(uint32_t), alignof(EmbreeLeaf));
     if (at == nullptr) return nullptr;
     auto* leaf = new (at) EmbreeLeaf;
-    auto* references = new (leaf + 1) Reference[count];
-    for (size_t i = 0; i < count; ++i) {
-      references[i] = {to_box(primitives[i]), primitives[i].primID};
-    }
+    leaf->primitives = new (leaf + 1) uint32_t[count];
+    for (size_t i = 0; i < count; ++i) leaf->primitives[i] = primitives[i].primID;
     // Embree's order depends on its threads.
-    std::sort(references, references + count, [](const Reference& a, const Reference& b) {
-      if (a.primitive != b.primitive) return a.primitive < b.primitive;
-      return std::lexicographical_compare(a.box.lower, a.box.lower + 3, b.box.lower,
-                                          b.box.lower + 3);
-    });
-    // Parts of one triangle become one again.
-    size_t kept = 1;
-    for (size_t i = 1; i < count; ++i) {
-      if (references[i].primitive == references[kept - 1].primitive) {
-        references[kept - 1].box.grow(references[i].box);
-      } else {
-        references[kept++] = references[i];
-      }
-    }
-    leaf->reference_count = kept;
+    std::sort(leaf->primitives, leaf->primitives + count);
+    leaf->reference_count = count;
     leaf->is_leaf = true;
-    leaf->references = references;
     return static_cast<EmbreeNode*>(leaf);
-  }
-
-  static void split(const RTCBuildPrimitive* primitive, unsigned axis, float position,
-                    RTCBounds* below, RTCBounds* above, void* user) {
-    const auto* self = static_cast<const EmbreeBuilder*>(user);
-    Box low;
-    Box high;
-    split_box(Corners(self->mesh, primitive->primID, self->frame), to_box(*primitive),
-              static_cast<int>(axis), position, low, high);
-    to_bounds(low, *below);
-    to_bounds(high, *above);
   }
 
   static bool on_progress(void* user, double fraction) {
@@ -193,7 +143,7 @@ struct EmbreeBuilder {
     fail(SOBB_ERROR_INTERNAL, "Embree's builder failed with error %d", static_cast<int>(error));
   }
 
-  const EmbreeNode* build(sobb_quality quality, const Scheduler& scheduler) {
+  const EmbreeNode* build(const Scheduler& scheduler) {
     device = rtcNewDevice(nullptr);
     if (device == nullptr) {
       fail(SOBB_ERROR_INTERNAL, "Embree's device: error %d",
@@ -204,10 +154,7 @@ struct EmbreeBuilder {
     if (bvh == nullptr) fail_build();
 
     const uint64_t count = mesh.triangle_count();
-    const auto room = quality == SOBB_QUALITY_HIGH
-                          ? static_cast<uint64_t>(static_cast<double>(count) * kSplitRoom)
-                          : 0;
-    std::pmr::vector<RTCBuildPrimitive> primitives(count + room, &memory);
+    std::pmr::vector<RTCBuildPrimitive> primitives(count, &memory);
     scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
       for (uint64_t i = begin; i < end; ++i) {
         primitives[i] = to_primitive(Corners(mesh, i, frame).box(), static_cast<uint32_t>(i));
@@ -215,15 +162,12 @@ struct EmbreeBuilder {
     });
 
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
-    arguments.buildQuality = to_embree(quality);
+    arguments.buildQuality = RTC_BUILD_QUALITY_LOW;
     arguments.maxBranchingFactor = 2;
     arguments.maxDepth = kMaxDepth;
-    arguments.sahBlockSize = 4;
     // Morton order has no cost model: its leaves are one block.
-    arguments.minLeafSize = quality == SOBB_QUALITY_LOW ? 4 : 1;
+    arguments.minLeafSize = 4;
     arguments.maxLeafSize = kMaxLeafReferences;
-    arguments.traversalCost = kBinaryStepCost;
-    arguments.intersectionCost = kLeafBlockCost;
     arguments.bvh = bvh;
     arguments.primitives = primitives.data();
     arguments.primitiveCount = count;
@@ -232,7 +176,6 @@ struct EmbreeBuilder {
     arguments.setNodeChildren = set_children;
     arguments.setNodeBounds = set_bounds;
     arguments.createLeaf = create_leaf;
-    arguments.splitPrimitive = quality == SOBB_QUALITY_HIGH ? split : nullptr;
     arguments.buildProgress = on_progress;
     arguments.userPtr = this;
     const void* root = nullptr;
@@ -245,7 +188,7 @@ struct EmbreeBuilder {
 // Copies Embree's nodes, depth first.
 class Flattening {
  public:
-  Flattening(BinaryNodes& to, bool splits) : to_(to), splits_(splits) {}
+  explicit Flattening(BinaryNodes& to) : to_(to) {}
 
   void add(const EmbreeNode& node, const Box& box, TopologyNode& made) {
     made.box = box;
@@ -264,13 +207,11 @@ class Flattening {
   void add_leaf(const EmbreeLeaf& leaf, TopologyNode& made) {
     made.first = static_cast<uint32_t>(references_);
     for (uint64_t i = 0; i < leaf.reference_count; ++i, ++references_) {
-      to_.primitives[references_] = leaf.references[i].primitive;
-      if (splits_) to_.boxes[references_] = leaf.references[i].box;
+      to_.primitives[references_] = leaf.primitives[i];
     }
   }
 
   BinaryNodes& to_;
-  bool splits_;
   uint64_t pairs_ = 0;
   uint64_t references_ = 0;
 };
@@ -281,32 +222,28 @@ uint64_t count_pairs(const EmbreeNode& node) {
   return 1 + count_pairs(*inner.child[0]) + count_pairs(*inner.child[1]);
 }
 
-Box box_of(const EmbreeNode& node) {
-  if (!node.is_leaf) {
-    const auto& inner = static_cast<const EmbreeInner&>(node);
+Box root_box(const EmbreeNode& root, const Mesh& mesh, const Frame& frame) {
+  if (!root.is_leaf) {
+    const auto& inner = static_cast<const EmbreeInner&>(root);
     Box box = inner.box[0];
     box.grow(inner.box[1]);
     return box;
   }
-  const auto& leaf = static_cast<const EmbreeLeaf&>(node);
-  Box box = leaf.references[0].box;
-  for (uint64_t i = 1; i < leaf.reference_count; ++i) box.grow(leaf.references[i].box);
+  Box box = box_of(mesh, 0, frame);
+  for (uint64_t i = 1; i < root.reference_count; ++i) box.grow(box_of(mesh, i, frame));
   return box;
 }
 
 }  // namespace
 
-BinaryNodes embree_topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler,
-                            Memory& memory, Progress& progress, double progress_end,
-                            const Frame& frame) {
+BinaryNodes embree_topology(const Mesh& mesh, const Scheduler& scheduler, Memory& memory,
+                            Progress& progress, double progress_end, const Frame& frame) {
   EmbreeBuilder builder(mesh, frame, memory, progress, progress_end);
-  const EmbreeNode& root = *builder.build(quality, scheduler);
-  const bool splits = quality == SOBB_QUALITY_HIGH;
+  const EmbreeNode& root = *builder.build(scheduler);
   BinaryNodes nodes;
   nodes.pairs = Array<NodePair>(count_pairs(root), memory);
   nodes.primitives = Array<uint32_t>(root.reference_count, memory);
-  if (splits) nodes.boxes = Array<Box>(root.reference_count, memory);
-  Flattening(nodes, splits).add(root, box_of(root), nodes.root);
+  Flattening(nodes).add(root, root_box(root, mesh, frame), nodes.root);
   return nodes;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary hierarchy by Embree's builder: in Morton order, or with spatial splits.
+// The binary hierarchy by Embree's builder, in Morton order.
 #pragma once
 
 #include "build/topology.h"
@@ -7,8 +7,7 @@
 namespace sobb {
 
 // As Topology has it.
-BinaryNodes embree_topology(const Mesh& mesh, sobb_quality quality, const Scheduler& scheduler,
-                            Memory& memory, Progress& progress, double progress_end,
-                            const Frame& frame);
+BinaryNodes embree_topology(const Mesh& mesh, const Scheduler& scheduler, Memory& memory,
+                            Progress& progress, double progress_end, const Frame& frame);
 
 }  // namespace sobb

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes of a binary subtree become the children of each wide node: of all choices, one of the
-// least cost by the surface area heuristic.
+// Which nodes of a binary hierarchy become the children of each wide node: of all choices, one of
+// the least cost by the surface area heuristic.
 #pragma once
 
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
+#include "base/scheduler.h"
+#include "build/array.h"
 #include "build/collapse.h"
 #include "build/topology.h"
 
@@ -21,12 +22,13 @@ namespace sobb {
 // the left.
 class LeastCostCut {
  public:
-  // The root, which is no leaf, is a wide node's. Holds 32 bytes a pair of nodes while it lives.
-  LeastCostCut(const Topology& topology, const TopologyNode& root, uint32_t width,
-               std::pmr::memory_resource& memory);
+  // Holds 32 bytes a pair of nodes while it lives. Nodes of at most `subtree_limit` references are
+  // solved in parallel with what is below them; the costs are the same whatever it is.
+  LeastCostCut(const Topology& topology, uint32_t width, uint64_t subtree_limit,
+               const Scheduler& scheduler, std::pmr::memory_resource& memory);
 
-  // The children of the wide node that stands for a binary one, in the binary order. Returns their
-  // number.
+  // The children of the wide node that stands for a binary one, in the binary order; of a root that
+  // is a leaf itself. Returns their number.
   uint32_t children(const TopologyNode& node, const TopologyNode* child[kMaxWidth]) const;
 
  private:
@@ -35,8 +37,9 @@ class LeastCostCut {
     float of[kMaxWidth];
   };
 
-  const Costs& costs(const TopologyNode& node) const;
-  void solve(const TopologyNode& node, Costs& costs) const;
+  const Costs& costs_of(const TopologyNode& node) const;
+  void solve(const TopologyNode& node);
+  void solve_subtree(const TopologyNode& root);
   void gather(const TopologyNode& node, uint32_t trees, const TopologyNode* child[kMaxWidth],
               uint32_t& count) const;
   void share(const TopologyNode& node, uint32_t trees, const TopologyNode* child[kMaxWidth],
@@ -44,9 +47,8 @@ class LeastCostCut {
 
   const Topology& topology_;
   uint32_t width_;
-  uint32_t first_;                 // pair
-  double scale_;                   // of areas, so that none overflows
-  std::pmr::vector<Costs> costs_;  // of the nodes whose children the pairs are
+  double scale_;        // of areas, so that none overflows
+  Array<Costs> costs_;  // of the nodes whose children the pairs are
 };
 
 }  // namespace sobb

@@ -57,20 +57,22 @@ HWY_INLINE hn::Vec<Int4> bins_of(hn::Vec<Tag4> centre, hn::Vec<Tag4> base, hn::V
   return hn::ConvertTo(Int4(), hn::Mul(hn::Sub(centre, base), scale));
 }
 
-void clear(Bins& bins, uint32_t count) {
+void clear(Bins& bins, const Binning& binning) {
   const Tag8 d;
   const auto nothing = hn::Set(d, std::numeric_limits<float>::infinity());
   for (int axis = 0; axis < 3; ++axis) {
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < binning.count; ++i) {
       for (size_t j = 0; j < 8; j += hn::Lanes(d)) {
         hn::Store(nothing, d, bins.box[axis][i].at + j);
       }
     }
-    std::fill_n(bins.count[axis], count, 0);
+    std::fill_n(bins.count[axis], binning.count, 0);
+    if (binning.kind == SplitKind::kPlanes) std::fill_n(bins.ends[axis], binning.count, 0);
   }
 }
 
-void bin(const SahReference* references, uint64_t count, const Binning& binning, Bins& bins) {
+void bin_centres(const SahReference* references, uint64_t count, const Binning& binning,
+                 Bins& bins) {
   const Tag4 d;
   const auto base = hn::Load(d, binning.base);
   const auto scale = hn::Load(d, binning.scale);
@@ -88,11 +90,12 @@ void bin(const SahReference* references, uint64_t count, const Binning& binning,
   }
 }
 
-void merge(const Bins& from, uint32_t count, Bins& into) {
+void merge(const Bins& from, const Binning& binning, Bins& into) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (uint32_t i = 0; i < count; ++i) {
+    for (uint32_t i = 0; i < binning.count; ++i) {
       grow(into.box[axis][i].at, from.box[axis][i].at);
       into.count[axis][i] += from.count[axis][i];
+      if (binning.kind == SplitKind::kPlanes) into.ends[axis][i] += from.ends[axis][i];
     }
   }
 }
@@ -128,60 +131,66 @@ class Areas {
 
 HWY_INLINE float blocks(uint64_t count) { return static_cast<float>(blocks_of(count)); }
 
-Split find_split(const SahNode& node, const Bins& bins, uint32_t count) {
-  const Areas area(node.box);
+Split find_split(const SahNode& node, const Bins& bins, const Binning& binning) {
+  const Areas area(node.extent.box);
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
-    if (bins.count[axis][0] == node.count) continue;  // all in one
+    // A reference that is in one bin ends where it begins.
+    const uint32_t* ends = binning.kind == SplitKind::kPlanes ? bins.ends[axis] : bins.count[axis];
+    if (ends[0] == node.count) continue;  // all in one
     float right_cost[kMaxBins];
+    uint64_t right_count[kMaxBins];
     FlatBox box = FlatBox::nothing();
     uint64_t side = 0;
-    for (uint32_t i = count - 1; i > 0; --i) {
+    for (uint32_t i = binning.count - 1; i > 0; --i) {
       grow(box.at, bins.box[axis][i].at);
-      side += bins.count[axis][i];
+      side += ends[i];
+      right_count[i] = side;
       right_cost[i] = side > 0 ? area(box) * blocks(side) : 0;
     }
     box = FlatBox::nothing();
     side = 0;
-    for (uint32_t i = 1; i < count; ++i) {
+    for (uint32_t i = 1; i < binning.count && right_count[i] > 0; ++i) {
       grow(box.at, bins.box[axis][i - 1].at);
-      if (bins.count[axis][i - 1] == 0) continue;
       side += bins.count[axis][i - 1];
-      if (side == node.count) break;
+      if (side == 0 || side + right_count[i] > node.count + node.room) continue;
       const float cost = area(box) * blocks(side) + right_cost[i];
       if (cost < best.cost) {
         best.cost = cost;
         best.axis = axis;
         best.bin = i;
-        best.left_count = side;
+        best.count[0] = side;
+        best.count[1] = right_count[i];
       }
     }
   }
+  best.binning = binning;
   if (best.axis < 0) return best;
+  std::copy_n(best.count, 2, best.placed);
   for (uint32_t side = 0; side < 2; ++side) {
     best.box[side] = FlatBox::nothing();
-    for (uint32_t i = side * best.bin; i < (side == 0 ? best.bin : count); ++i) {
+    for (uint32_t i = side * best.bin; i < (side == 0 ? best.bin : binning.count); ++i) {
       grow(best.box[side].at, bins.box[best.axis][i].at);
     }
   }
   return best;
 }
 
-void partition(const SahReference* references, uint64_t count, const Binning& binning,
-               const Split& split, SahReference* left, SahReference* right, Centres centres[2]) {
+void partition_centres(const SahReference* references, uint64_t count, const Split& split,
+                       SahReference* left, SahReference* right, SahExtent side[2]) {
   const Tag4 d;
   const Int4 di;
-  const auto base = hn::Load(d, binning.base);
-  const auto scale = hn::Load(d, binning.scale);
+  const auto base = hn::Load(d, split.binning.base);
+  const auto scale = hn::Load(d, split.binning.scale);
   // Only the split's axis can be at or past its bin.
   alignas(16) int32_t first[4] = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
   first[split.axis] = static_cast<int32_t>(split.bin);
   const auto bound = hn::Load(di, first);
   const auto none = hn::Set(d, std::numeric_limits<float>::infinity());
-  auto left_lower = hn::Load(d, centres[0].lower);
-  auto left_upper = hn::Load(d, centres[0].upper);
-  auto right_lower = hn::Load(d, centres[1].lower);
-  auto right_upper = hn::Load(d, centres[1].upper);
+  auto left_lower = hn::Load(d, side[0].centres.lower);
+  auto left_upper = hn::Load(d, side[0].centres.upper);
+  auto right_lower = hn::Load(d, side[1].centres.lower);
+  auto right_upper = hn::Load(d, side[1].centres.upper);
   for (uint64_t i = 0; i < count; ++i) {
     const auto centre = centre_of(references[i]);
     const auto at = bins_of(centre, base, scale);
@@ -195,24 +204,24 @@ void partition(const SahReference* references, uint64_t count, const Binning& bi
     left += is_left;
     right += !is_left;
   }
-  hn::Store(left_lower, d, centres[0].lower);
-  hn::Store(left_upper, d, centres[0].upper);
-  hn::Store(right_lower, d, centres[1].lower);
-  hn::Store(right_upper, d, centres[1].upper);
+  hn::Store(left_lower, d, side[0].centres.lower);
+  hn::Store(left_upper, d, side[0].centres.upper);
+  hn::Store(right_lower, d, side[1].centres.lower);
+  hn::Store(right_upper, d, side[1].centres.upper);
 }
 
-void bound(const SahReference* references, uint64_t count, FlatBox& box, Centres& centres) {
+void bound(const SahReference* references, uint64_t count, SahExtent& extent) {
   const Tag4 d;
-  auto lower = hn::Load(d, centres.lower);
-  auto upper = hn::Load(d, centres.upper);
+  auto lower = hn::Load(d, extent.centres.lower);
+  auto upper = hn::Load(d, extent.centres.upper);
   for (uint64_t i = 0; i < count; ++i) {
     const auto centre = centre_of(references[i]);
     lower = hn::Min(lower, centre);
     upper = hn::Max(upper, centre);
-    grow(box.at, references[i].lower);
+    grow(extent.box.at, references[i].lower);
   }
-  hn::Store(lower, d, centres.lower);
-  hn::Store(upper, d, centres.upper);
+  hn::Store(lower, d, extent.centres.lower);
+  hn::Store(upper, d, extent.centres.upper);
 }
 
 }  // namespace

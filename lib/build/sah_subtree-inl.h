@@ -7,7 +7,7 @@
 #define SOBB_BUILD_SAH_SUBTREE_INL_H
 #endif
 
-#include "build/sah_bins-inl.h"
+#include "build/sah_kinds-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -19,23 +19,20 @@ class SubtreeBuilder {
   explicit SubtreeBuilder(SahSubtree& subtree) : subtree_(subtree) {}
 
   void build() {
-    subtree_.pairs.reserve(subtree_.node.count);  // so that none moves
-    add(subtree_.node, 0, subtree_.depth, subtree_.root);
-    subtree_.pairs.shrink_to_fit();
+    const SahNode& node = subtree_.node;
+    subtree_.pairs.reserve(node.count + node.room);  // so that none moves
+    add(node, 0, subtree_.depth, subtree_.root);
+    // Not shrink_to_fit(), which takes a refused allocation for success.
+    auto& pairs = subtree_.pairs;
+    std::pmr::vector<NodePair>(pairs.begin(), pairs.end(), pairs.get_allocator()).swap(pairs);
   }
 
  private:
   // Makes a node of the references of array `from`.
   void add(const SahNode& node, int from, uint32_t depth, TopologyNode& made) {
-    made.box = node.box.box();
+    made.box = node.extent.box.box();
     Split split;
-    Binning binning;
-    if (node.count > 1 && depth < kDeepestSplit) {
-      binning = make_binning(node.centres, node.count);
-      clear(bins_, binning.count);
-      bin(subtree_.at[from] + node.begin, node.count, binning, bins_);
-      split = find_split(node, bins_, binning.count);
-    }
+    if (node.count > 1 && depth < kDeepestSplit) split = find_best(node, from);
     made.is_leaf =
         node.count <= kMaxLeafReferences &&
         kLeafBlockCost * blocks(node.count) <= kBinaryStepCost + kLeafBlockCost * split.cost;
@@ -43,7 +40,7 @@ class SubtreeBuilder {
 
     SahNode child[2];
     if (split.axis >= 0) {
-      divide(node, from, binning, split, child);
+      divide(node, from, split, child);
       from = 1 - from;
     } else {
       halve(node, from, child);
@@ -55,15 +52,32 @@ class SubtreeBuilder {
     made.count = pair.count();
   }
 
-  void divide(const SahNode& node, int from, const Binning& binning, const Split& split,
-              SahNode child[2]) const {
-    Centres centres[2] = {Centres::nothing(), Centres::nothing()};
-    SahReference* left = subtree_.at[1 - from] + node.begin;
-    partition(subtree_.at[from] + node.begin, node.count, binning, split, left,
-              left + split.left_count, centres);
-    child[0] = {split.box[0], centres[0], node.begin, split.left_count};
-    child[1] = {split.box[1], centres[1], node.begin + split.left_count,
-                node.count - split.left_count};
+  Split find_best(const SahNode& node, int from) {
+    const SahReference* references = subtree_.at[from] + node.begin;
+    Split best;
+    for (const SplitKind kind : kSplitKinds) {
+      const Binning binning = make_binning(kind, node, best, subtree_.cutting);
+      if (binning.count == 0) continue;
+      clear(bins_, binning);
+      bin(references, node.count, binning, subtree_.cutting, bins_);
+      Split split = find_split(node, bins_, binning);
+      if (!is_better(node, split, best)) continue;
+      if (kind == SplitKind::kPlanes) {
+        count_parts(references, node.count, node, split, *subtree_.cutting, split.placed);
+        if (split.placed[0] == 0 || split.placed[1] == 0) continue;
+      }
+      best = split;
+    }
+    return best;
+  }
+
+  void divide(const SahNode& node, int from, const Split& split, SahNode child[2]) const {
+    place_sides(node, split.placed, child);
+    SahReference* to = subtree_.at[1 - from];
+    SahExtent side[2] = {SahExtent::nothing(), SahExtent::nothing()};
+    partition(subtree_.at[from] + node.begin, node.count, node, split, subtree_.cutting,
+              to + child[0].begin, to + child[1].begin, side);
+    for (int k = 0; k < 2; ++k) child[k].extent = side[k];
   }
 
   // As they come: where nothing tells the references apart.
@@ -71,19 +85,29 @@ class SubtreeBuilder {
     const uint64_t half = node.count / 2;
     const SahReference* references = subtree_.at[from];
     for (int side = 0; side < 2; ++side) {
-      child[side] = {FlatBox::nothing(), Centres::nothing(), node.begin + side * half,
-                     side == 0 ? half : node.count - half};
-      bound(references + child[side].begin, child[side].count, child[side].box,
-            child[side].centres);
+      child[side] = {SahExtent::nothing(), node.begin + side * half,
+                     side == 0 ? half : node.count - half, 0};
+      bound(references + child[side].begin, child[side].count, child[side].extent);
     }
   }
 
+  // Parts of one triangle, next to each other, become one again.
   void finish(const SahNode& node, int from, TopologyNode& leaf) const {
-    leaf.first = static_cast<uint32_t>(node.begin);
-    leaf.count = static_cast<uint32_t>(node.count);
-    for (uint64_t i = node.begin; i < node.begin + node.count; ++i) {
-      subtree_.primitives[i] = subtree_.at[from][i].primitive;
+    const SahReference* references = subtree_.at[from] + node.begin;
+    uint32_t* primitives = subtree_.primitives + node.begin;
+    Box* boxes = subtree_.boxes == nullptr ? nullptr : subtree_.boxes + node.begin;
+    uint32_t kept = 0;
+    for (uint64_t i = 0; i < node.count; ++i) {
+      if (kept > 0 && primitives[kept - 1] == references[i].primitive) {
+        boxes[kept - 1].grow(references[i].box());
+        continue;
+      }
+      primitives[kept] = references[i].primitive;
+      if (boxes != nullptr) boxes[kept] = references[i].box();
+      ++kept;
     }
+    leaf.first = static_cast<uint32_t>(node.begin);
+    leaf.count = kept;
   }
 
   SahSubtree& subtree_;

@@ -51,11 +51,11 @@ struct References {
 struct BinaryNodes {
   TopologyNode root{};
   Array<NodePair> pairs;
-  Array<uint32_t> primitives;
-  Array<Box> boxes;  // none without spatial splits
+  Array<uint32_t> primitives;  // with gaps between leaves where spatial splits left room
+  Array<Box> boxes;            // likewise; none without spatial splits
 };
 
-// Medium quality is made by the library's own builder, the others by Embree's.
+// Low quality is made by Embree's builder, the others by the library's own.
 class Topology {
  public:
   // Progress runs from 0 to `progress_end`. Errors: OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED,

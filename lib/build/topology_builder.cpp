@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 
 namespace sobb {
 namespace {
@@ -14,24 +15,21 @@ constexpr uint64_t kSubtreeParts = 256;
 constexpr uint64_t kSubtreeReferences = 4096;
 // The part of the progress in which the top is made, by measured time.
 constexpr double kTopShare = 0.4;
-
-void add(const Centres& centres, Centres& to) {
-  for (int k = 0; k < 3; ++k) {
-    to.lower[k] = std::min(to.lower[k], centres.lower[k]);
-    to.upper[k] = std::max(to.upper[k], centres.upper[k]);
-  }
-}
+// The part of the root's area that the sides of a split must have in common before a spatial one is
+// tried, as in Stich et al.
+constexpr double kLeastOverlap = 1e-5;
 
 }  // namespace
 
 void TopologyBuilder::build(Progress& progress, double progress_end) {
-  const uint64_t limit = std::max(kSubtreeReferences, count_ / kSubtreeParts);
-  std::pmr::vector<Open> level({{bound_all(), kNone, 0}}, &memory_);
+  const uint64_t limit = std::max(kSubtreeReferences, build_.count / kSubtreeParts);
+  Level level({{bound_all(), kNone, 0}}, &memory_);
+  cutting_.least_overlap = level[0].node.extent.box.box().half_area() * kLeastOverlap;
   for (uint32_t depth = 0; !level.empty(); ++depth) {
     // A root's children are half as large, and so on: so many levels are nearly all.
     progress.check(0, progress_end * kTopShare, std::min(1.0, depth / 10.0));
     const int from = static_cast<int>(depth % 2);
-    std::pmr::vector<Open> large(&memory_);
+    Level large(&memory_);
     for (const Open& open : level) {
       if (open.node.count <= limit || depth >= kDeepestSplit) {
         add_subtree(open, depth, from);
@@ -59,26 +57,21 @@ void TopologyBuilder::build(Progress& progress, double progress_end) {
 }
 
 SahNode TopologyBuilder::bound_all() const {
-  std::pmr::vector<SahNode> parts((count_ + kBlock - 1) / kBlock, &memory_);
-  scheduler_.for_ranges(count_, kBlock, [&](uint64_t begin, uint64_t end) {
-    SahNode& part = parts[begin / kBlock];
-    part = {FlatBox::nothing(), Centres::nothing(), begin, end - begin};
-    kernels_.bound(at_[0] + begin, end - begin, part.box, part.centres);
+  std::pmr::vector<SahExtent> parts((build_.count + kBlock - 1) / kBlock, &memory_);
+  scheduler_.for_ranges(build_.count, kBlock, [&](uint64_t begin, uint64_t end) {
+    SahExtent& part = parts[begin / kBlock];
+    part = SahExtent::nothing();
+    kernels_.bound(build_.references[0] + begin, end - begin, part);
   });
-  SahNode node = parts[0];
-  node.count = count_;
-  for (const SahNode& part : parts) {
-    for (int k = 0; k < 8; ++k) node.box.at[k] = std::min(node.box.at[k], part.box.at[k]);
-    add(part.centres, node.centres);
-  }
+  SahNode node = {parts[0], 0, build_.count, build_.room};
+  for (const SahExtent& part : parts) node.extent.grow(part);
   return node;
 }
 
 // Moves the references of all nodes of a level to the other array, for those that have a split.
-void TopologyBuilder::split_level(std::pmr::vector<Open>& level, int from) const {
-  std::pmr::vector<Block> blocks(&memory_);
+void TopologyBuilder::split_level(Level& level, int from) const {
+  Blocks blocks(&memory_);
   for (Open& open : level) {
-    open.binning = make_binning(open.node.centres, open.node.count);
     open.first_block = blocks.size();
     open.block_count = (open.node.count + kBlock - 1) / kBlock;
     for (uint64_t i = 0; i < open.block_count; ++i) {
@@ -86,52 +79,98 @@ void TopologyBuilder::split_level(std::pmr::vector<Open>& level, int from) const
                         std::min(kBlock, open.node.count - i * kBlock)});
     }
   }
-  Array<Bins> bins(blocks.size(), memory_);
-  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
-    const Binning& binning = level[blocks[i].open].binning;
-    kernels_.clear(bins[i], binning.count);
-    kernels_.bin(at_[from] + blocks[i].begin, blocks[i].count, binning, bins[i]);
-  });
-  scheduler_.for_each(level.size(), [&](uint64_t i) {
-    Open& open = level[i];
-    find_split(open, bins.data() + open.first_block, &blocks[open.first_block], 1 - from);
-  });
+  for (const SplitKind kind : kSplitKinds) try_splits(kind, level, blocks, from);
+  for (Open& open : level) {
+    if (open.split.axis >= 0) place(open, &blocks[open.first_block], 1 - from);
+  }
   scheduler_.for_each(blocks.size(), [&](uint64_t i) {
     Block& block = blocks[i];
     const Open& open = level[block.open];
     if (open.split.axis < 0) return;
-    kernels_.partition(at_[from] + block.begin, block.count, open.binning, open.split, block.left,
-                       block.right, block.centres);
+    kernels_.partition(build_.references[from] + block.begin, block.count, open.node, open.split,
+                       cutting(), block.to[0], block.to[1], block.extent);
   });
-  // The centres of a node's first block become those of all.
-  for (const Open& open : level) {
-    Block* of = &blocks[open.first_block];
-    for (int side = 0; side < 2; ++side) {
-      for (uint64_t i = 1; i < open.block_count; ++i) add(of[i].centres[side], of->centres[side]);
-    }
-  }
   for (Open& open : level) {
-    std::copy_n(blocks[open.first_block].centres, 2, open.centres);
+    for (int side = 0; side < 2; ++side) {
+      for (uint64_t i = 0; i < open.block_count; ++i) {
+        open.child[side].extent.grow(blocks[open.first_block + i].extent[side]);
+      }
+    }
   }
 }
 
-void TopologyBuilder::find_split(Open& open, const Bins* bins, Block* blocks, int to) const {
+// Looks for a better split of each node, of another kind.
+void TopologyBuilder::try_splits(SplitKind kind, Level& level, Blocks& blocks, int from) const {
+  bool any = false;
+  for (Open& open : level) {
+    open.trial = {};
+    open.trial.binning = make_binning(kind, open.node, open.split, cutting());
+    any |= open.trial.binning.count > 0;
+  }
+  if (!any) return;
+  Array<Bins> bins(blocks.size(), memory_);
+  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
+    const Binning& binning = level[blocks[i].open].trial.binning;
+    if (binning.count == 0) return;
+    kernels_.clear(bins[i], binning);
+    kernels_.bin(build_.references[from] + blocks[i].begin, blocks[i].count, binning, cutting(),
+                 bins[i]);
+  });
+  scheduler_.for_each(level.size(), [&](uint64_t i) {
+    if (level[i].trial.binning.count > 0) try_split(level[i], &bins[level[i].first_block]);
+  });
+  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
+    const Open& open = level[blocks[i].open];
+    if (open.trial.axis >= 0) count_sides(open, bins[i], blocks[i], from);
+  });
+  for (Open& open : level) {
+    if (open.trial.axis >= 0) adopt_trial(open, &blocks[open.first_block]);
+  }
+}
+
+void TopologyBuilder::try_split(Open& open, const Bins* bins) const {
+  const Binning binning = open.trial.binning;
   Bins all;
-  kernels_.clear(all, open.binning.count);
-  for (uint64_t i = 0; i < open.block_count; ++i) kernels_.merge(bins[i], open.binning.count, all);
-  open.split = kernels_.find_split(open.node, all, open.binning.count);
-  if (open.split.axis < 0) return;
-  SahReference* left = at_[to] + open.node.begin;
-  SahReference* right = left + open.split.left_count;
+  kernels_.clear(all, binning);
+  for (uint64_t i = 0; i < open.block_count; ++i) kernels_.merge(bins[i], binning, all);
+  open.trial = kernels_.find_split(open.node, all, binning);
+  if (!is_better(open.node, open.trial, open.split)) open.trial.axis = -1;
+}
+
+void TopologyBuilder::count_sides(const Open& open, const Bins& bins, Block& block,
+                                  int from) const {
+  if (open.trial.binning.kind == SplitKind::kPlanes) {
+    kernels_.count_parts(build_.references[from] + block.begin, block.count, open.node, open.trial,
+                         cutting_, block.trial);
+    return;
+  }
+  const uint32_t* count = bins.count[open.trial.axis];
+  block.trial[0] = std::accumulate(count, count + open.trial.bin, uint64_t{0});
+  block.trial[1] = block.count - block.trial[0];
+}
+
+void TopologyBuilder::adopt_trial(Open& open, Block* blocks) {
+  uint64_t* placed = open.trial.placed;
+  std::fill_n(placed, 2, 0);
   for (uint64_t i = 0; i < open.block_count; ++i) {
-    blocks[i].left = left;
-    blocks[i].right = right;
-    uint64_t left_count = 0;
-    for (uint32_t bin = 0; bin < open.split.bin; ++bin) {
-      left_count += bins[i].count[open.split.axis][bin];
+    for (int side = 0; side < 2; ++side) placed[side] += blocks[i].trial[side];
+  }
+  if (placed[0] == 0 || placed[1] == 0) return;  // in the end none was cut
+  open.split = open.trial;
+  for (uint64_t i = 0; i < open.block_count; ++i) {
+    std::copy_n(blocks[i].trial, 2, blocks[i].placed);
+  }
+}
+
+// The children's references, and where those of each block go.
+void TopologyBuilder::place(Open& open, Block* blocks, int to) const {
+  place_sides(open.node, open.split.placed, open.child);
+  for (int side = 0; side < 2; ++side) {
+    SahReference* at = build_.references[to] + open.child[side].begin;
+    for (uint64_t i = 0; i < open.block_count; ++i) {
+      blocks[i].to[side] = at;
+      at += blocks[i].placed[side];
     }
-    left += left_count;
-    right += blocks[i].count - left_count;
   }
 }
 
@@ -141,26 +180,22 @@ void TopologyBuilder::add_subtree(const Open& open, uint32_t depth, int from) {
   }
   SahSubtree& subtree = subtrees_.emplace_back(open.node, memory_);
   subtree.depth = depth;
-  subtree.at[0] = at_[from];
-  subtree.at[1] = at_[1 - from];
-  subtree.primitives = primitives_;
+  subtree.at[0] = build_.references[from];
+  subtree.at[1] = build_.references[1 - from];
+  subtree.primitives = build_.primitives;
+  subtree.boxes = build_.boxes;
+  subtree.cutting = cutting();
 }
 
-void TopologyBuilder::add_children(const Open& open, std::pmr::vector<Open>& next) {
+void TopologyBuilder::add_children(const Open& open, Level& next) {
   const auto pair = static_cast<uint32_t>(top_.size());
   // Counts are known once all is done.
   TopologyNode& made = open.parent == kNone ? root_ : top_[open.parent].nodes.child[open.side];
-  made.box = open.node.box.box();
+  made.box = open.node.extent.box.box();
   made.first = pair;
   made.is_leaf = false;
   top_.emplace_back();
-  uint64_t begin = open.node.begin;
-  for (uint32_t side = 0; side < 2; ++side) {
-    const uint64_t count =
-        side == 0 ? open.split.left_count : open.node.count - open.split.left_count;
-    next.push_back({{open.split.box[side], open.centres[side], begin, count}, pair, side});
-    begin += count;
-  }
+  for (uint32_t side = 0; side < 2; ++side) next.push_back({open.child[side], pair, side});
 }
 
 // Lays out a pair of the top from `at` on, and what is below it. Returns the place after.

@@ -13,16 +13,23 @@
 
 namespace sobb {
 
+// What a topology is made from and into.
+struct SahBuild {
+  SahReference* references[2];  // two arrays with room for all, which are in the first
+  uint64_t count;
+  uint64_t room;         // for more of them
+  uint32_t* primitives;  // receives what is in leaves; room likewise
+  Box* boxes = nullptr;  // likewise; none: no spatial splits
+  const Mesh& mesh;
+  const Frame& frame;
+};
+
 class TopologyBuilder {
  public:
-  // Both arrays have room for all references, which are in the first. `primitives` likewise;
-  // it receives what is in leaves.
-  TopologyBuilder(SahReference* references, SahReference* other, uint64_t count,
-                  uint32_t* primitives, const SahKernels& kernels, const Scheduler& scheduler,
+  TopologyBuilder(const SahBuild& build, const SahKernels& kernels, const Scheduler& scheduler,
                   Memory& memory)
-      : at_{references, other},
-        count_(count),
-        primitives_(primitives),
+      : build_(build),
+        cutting_{build.mesh, build.frame, 0},
         kernels_(kernels),
         scheduler_(scheduler),
         memory_(memory),
@@ -43,9 +50,9 @@ class TopologyBuilder {
     SahNode node;
     uint32_t parent;  // in top_; kNone: the root
     uint32_t side;
-    Binning binning{};
-    Split split{};
-    Centres centres[2]{};  // of both sides
+    Split split{};       // the best so far
+    Split trial{};       // one that may be better
+    SahNode child[2]{};  // of the best
     uint64_t first_block = 0;
     uint64_t block_count = 0;
   };
@@ -54,10 +61,15 @@ class TopologyBuilder {
     uint32_t open;
     uint64_t begin;
     uint64_t count;
-    SahReference* left = nullptr;  // where they go
-    SahReference* right = nullptr;
-    Centres centres[2] = {Centres::nothing(), Centres::nothing()};
+    uint64_t placed[2] = {0, 0};  // how many go to either side
+    uint64_t trial[2] = {0, 0};   // likewise, by the trial
+    SahReference* to[2] = {};     // where they go
+    // What they are there.
+    SahExtent extent[2] = {SahExtent::nothing(), SahExtent::nothing()};
   };
+  using Level = std::pmr::vector<Open>;
+  using Blocks = std::pmr::vector<Block>;
+
   // Two nodes of the top, or where subtrees hang.
   struct TopPair {
     NodePair nodes;
@@ -65,16 +77,20 @@ class TopologyBuilder {
   };
 
   SahNode bound_all() const;
-  void split_level(std::pmr::vector<Open>& level, int from) const;
-  void find_split(Open& open, const Bins* bins, Block* blocks, int to) const;
+  void split_level(Level& level, int from) const;
+  void try_splits(SplitKind kind, Level& level, Blocks& blocks, int from) const;
+  void try_split(Open& open, const Bins* bins) const;
+  void count_sides(const Open& open, const Bins& bins, Block& block, int from) const;
+  static void adopt_trial(Open& open, Block* blocks);
+  void place(Open& open, Block* blocks, int to) const;
+  const Cutting* cutting() const { return build_.boxes == nullptr ? nullptr : &cutting_; }
   void add_subtree(const Open& open, uint32_t depth, int from);
-  void add_children(const Open& open, std::pmr::vector<Open>& next);
+  void add_children(const Open& open, Level& next);
   uint64_t place(uint32_t top, uint64_t at, Array<NodePair>& pairs,
                  std::pmr::vector<uint64_t>& places) const;
 
-  SahReference* at_[2];
-  uint64_t count_;
-  uint32_t* primitives_;
+  SahBuild build_;
+  Cutting cutting_;
   const SahKernels& kernels_;
   const Scheduler& scheduler_;
   Memory& memory_;

@@ -17,6 +17,13 @@ namespace {
 
 constexpr sobb_quality kQualities[] = {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH};
 
+Soup flat_soup(uint64_t seed, uint32_t triangles) {
+  Soup soup = random_soup(seed, triangles, 1.5);
+  for (size_t i = 2; i < soup.vertices.size(); i += 3) soup.vertices[i] = 0.5F;
+  soup.name = "flat";
+  return soup;
+}
+
 // A topology with all that it borrows.
 struct Tree {
   Scheduler scheduler;
@@ -25,10 +32,10 @@ struct Tree {
   Progress progress{nullptr, nullptr};
   Topology topology;
 
-  Tree(const Soup& soup, sobb_quality quality, uint32_t threads)
+  Tree(const Soup& soup, sobb_quality quality, uint32_t threads, sobb_isa isa = SOBB_ISA_BEST)
       : scheduler(threads, nullptr),
         mesh(soup.view(), scheduler),
-        topology(mesh, quality, scheduler, memory, progress, 1) {}
+        topology(mesh, quality, scheduler, memory, progress, 1, Frame(), isa) {}
 };
 
 bool same(const Topology& a, const TopologyNode& of_a, const Topology& b,
@@ -99,7 +106,10 @@ std::vector<Box> boxes_of(const Tree& tree) {
 TEST(Topology, HoldsEveryPointOfEveryTriangle) {
   for (const Soup& soup :
        {random_soup(1, 3000), random_soup(2, 400, 1.5), sliver_soup(3, 1000),
-        degenerate_soup(4, 500), random_soup(5, 1), identical_soup(100), random_soup(9, 20'000)}) {
+        degenerate_soup(4, 500), random_soup(5, 1), random_soup(5, 2), random_soup(5, 7),
+        random_soup(5, 10), identical_soup(100), random_soup(9, 20'000), sliver_soup(16, 9'000),
+        flat_soup(17, 2'000), placed(random_soup(2, 400, 1.5), 0x1p50, 1e3),
+        placed(random_soup(2, 400, 1.5), 1, 1e-30)}) {
     for (const sobb_quality quality : kQualities) {
       SCOPED_TRACE(soup.name + " quality " + std::to_string(quality));
       const Tree tree(soup, quality, 1);
@@ -140,9 +150,60 @@ TEST(Topology, SpatialSplitsCutLargeTriangles) {
   EXPECT_GT(high.topology.root().count, 500u);
 }
 
+// Room for references that spatial splits add is a quarter of the triangles.
+TEST(Topology, SpatialSplitsKeepTheirRoom) {
+  for (const Soup& soup : {random_soup(11, 2000, 1.5), sliver_soup(12, 5000)}) {
+    const Tree high(soup, SOBB_QUALITY_HIGH, 1);
+    const auto count = static_cast<double>(high.mesh.triangle_count());
+    EXPECT_LE(high.topology.root().count, 1.25 * count) << soup.name;
+    EXPECT_EQ(high.topology.references().primitives.size(),
+              high.topology.references().boxes.size());
+  }
+}
+
+// Sum of area times cost over the root's area: of inner nodes, and of leaves' blocks.
+double surface_area_cost(const Topology& topology, const TopologyNode& node) {
+  if (node.is_leaf) return node.box.half_area() * ((node.count + 3) / 4);
+  return node.box.half_area() + surface_area_cost(topology, topology.child(node, 0)) +
+         surface_area_cost(topology, topology.child(node, 1));
+}
+
+TEST(Topology, SpatialSplitsMakeLongNeedlesCheaper) {
+  const Soup soup = random_soup(13, 3000, 1.5);
+  const Tree medium(soup, SOBB_QUALITY_MEDIUM, 1);
+  const Tree high(soup, SOBB_QUALITY_HIGH, 1);
+  EXPECT_LT(surface_area_cost(high.topology, high.topology.root()),
+            surface_area_cost(medium.topology, medium.topology.root()));
+}
+
+// A shell of few large triangles around many small ones: the centres of the shell lie all around
+// the core, but the first split takes the core out.
+TEST(Topology, LargeTrianglesAreToldFromSmallOnes) {
+  Soup soup = random_soup(14, 5000);
+  const Soup shell = placed(random_soup(15, 20, 1.5), 1000, -500);
+  for (uint64_t i = 0; i < 20; ++i) {
+    soup.add(shell.corner(i, 0), shell.corner(i, 1), shell.corner(i, 2));
+  }
+  const Tree tree(soup, SOBB_QUALITY_MEDIUM, 1);
+  const TopologyNode& root = tree.topology.root();
+  EXPECT_EQ(tree.topology.child(root, 0).count, 20u);
+}
+
+TEST(Topology, IsTheSameForAnyInstructionSet) {
+  for (const Soup& soup : {random_soup(18, 20'000, 0.3), sliver_soup(19, 4'000)}) {
+    for (const sobb_quality quality : {SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
+      const Tree best(soup, quality, 1);
+      const Tree least(soup, quality, 1, SOBB_ISA_SSE4);
+      EXPECT_TRUE(same(best.topology, best.topology.root(), least.topology, least.topology.root()))
+          << soup.name << " quality " << quality;
+    }
+  }
+}
+
 TEST(Topology, IsTheSameForAnyThreadCount) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
-  for (const Soup& soup : {random_soup(7, 30'000), sliver_soup(8, 4'000), identical_soup(10'000)}) {
+  for (const Soup& soup :
+       {random_soup(7, 30'000, 0.3), sliver_soup(8, 4'000), identical_soup(10'000)}) {
     for (const sobb_quality quality : kQualities) {
       const Tree one(soup, quality, 1);
       for (const uint32_t threads : {2, 3, 8}) {

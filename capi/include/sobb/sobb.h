@@ -127,8 +127,8 @@ SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out);
 /**
  * The caller's allocator. Every allocation of the library on behalf of a call that was given one
  * goes through it, as do those that the resulting hierarchy keeps and those of tracing it, but for
- * some hundred bytes of bookkeeping. (Embree, which builds low and high quality, allocates by
- * itself; its bytes are counted against the memory limit.) Called from several threads at once.
+ * some hundred bytes of bookkeeping. (Embree, which builds low quality, allocates by itself;
+ * its bytes are counted against the memory limit.) Called from several threads at once.
  */
 typedef struct sobb_allocator {
   void* user;
@@ -141,8 +141,8 @@ typedef struct sobb_allocator {
 /**
  * The caller's thread pool. `parallel_for` runs body(context, i) once for each i < count, on any
  * threads, in any order, and returns when all are done. Bodies do not throw and do not block on
- * each other. A build with a scheduler starts no thread of its own: Embree, which builds low and
- * high quality, then runs on the calling thread.
+ * each other. A build with a scheduler starts no thread of its own: Embree, which builds low
+ * quality, then runs on the calling thread.
  */
 typedef struct sobb_scheduler {
   void* user;
@@ -185,7 +185,7 @@ typedef enum sobb_quality {
   SOBB_QUALITY_DEFAULT = 0, /**< medium */
   SOBB_QUALITY_LOW = 1,     /**< Morton order, by Embree */
   SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic, the library's own builder */
-  SOBB_QUALITY_HIGH = 3     /**< with spatial splits, by Embree; more references, faster rays */
+  SOBB_QUALITY_HIGH = 3     /**< with spatial splits: more references, faster rays */
 } sobb_quality;
 
 /** How a basis is chosen among the k/2 directions (EG25, section 4). */
