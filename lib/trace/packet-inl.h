@@ -22,9 +22,9 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lanes with rays that may meet a child.
-template <int W, int kSize>
-HWY_INLINE uint32_t meet_child(const PacketRays<kSize>& rays, const PacketTable& table,
-                               const Node<W>& node, uint32_t child) {
+template <int W, class Rays>
+HWY_INLINE uint32_t meet_child(const Rays& rays, const PacketTable& table, const Node<W>& node,
+                               uint32_t child) {
   const RayFloats d;
   const uint32_t basis = node.basis[child];
   uint32_t met = 0;
@@ -66,10 +66,9 @@ constexpr uint32_t packet_key_child(PacketKey key) { return key >> 32 & 7; }
 constexpr uint32_t packet_key_node(PacketKey key) { return static_cast<uint32_t>(key); }
 
 // The children that a lane, or the packet as a whole, may meet, and from which depth on.
-template <int W, int kSize>
-HWY_INLINE uint32_t meet_children(const TraceScene& scene, const PacketRays<kSize>& rays,
-                                  PacketTable& table, const Node<W>& node, uint32_t column,
-                                  float (&nearest)[W]) {
+template <int W, class Rays>
+HWY_INLINE uint32_t meet_children(const TraceScene& scene, const Rays& rays, PacketTable& table,
+                                  const Node<W>& node, uint32_t column, float (&nearest)[W]) {
   const hn::CappedTag<float, W> d;
   const uint32_t count = child_count(node);
   uint32_t met = 0;
@@ -126,18 +125,20 @@ HWY_INLINE void prefetch_child(const TraceScene& scene, const Node<W>* nodes, co
   for (size_t line = 0; line < sizeof(Node<W>); line += 64) hwy::Prefetch(bytes + line);
 }
 
-// Children visited for each ray after which
-constexpr int kMostVisits = 12;
+// Children visited for each ray after which a packet is given up.
+template <Query kQuery>
+constexpr int kMostVisits = kQuery == Query::kAny ? 6 : 12;
 
 // Returns false if it gave up, since the rays meet more than they would one by one.
-template <int W, Query kQuery, int kSize>
-HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize>& rays, uint32_t lanes) {
+template <int W, Query kQuery, int kSize, bool kOwnOrigins>
+HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>& rays,
+                         uint32_t lanes) {
   PacketTable table;
   const auto* nodes = static_cast<const Node<W>*>(scene.nodes);
   PacketKey stack[kMaxDepth * (W - 1) + 1];
   PacketKey* top = stack;
   uint32_t index = 0;
-  int left = kMostVisits * kSize;
+  int left = kMostVisits<kQuery> * kSize;
   for (;;) {
     const Node<W>& node = nodes[index];
     const bool one_lane = (lanes & (lanes - 1)) == 0;
@@ -185,14 +186,14 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize>& rays, uint3
   }
 }
 
-template <int kSize>
-HWY_INLINE void store(const PacketRays<kSize>& rays, size_t i, sobb_hit& hit) {
+template <class Rays>
+HWY_INLINE void store(const Rays& rays, size_t i, sobb_hit& hit) {
   hit = rays.primitive[i] == SOBB_MISS
             ? ClosestHit::missed(SOBB_MISS)
             : sobb_hit{rays.limit[i], rays.u[i], rays.v[i], rays.primitive[i], 0, SOBB_MISS};
 }
-template <int kSize>
-HWY_INLINE void store(const PacketRays<kSize>& rays, size_t i, uint8_t& occluded) {
+template <class Rays>
+HWY_INLINE void store(const Rays& rays, size_t i, uint8_t& occluded) {
   occluded = rays.primitive[i] == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
 }
 
@@ -203,16 +204,19 @@ HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* ra
                                      Result* results) {
   const sobb_ray& first = rays[std::countr_zero(mask)];
   if (!is_valid(first)) return 0;
-  PacketRays<kSize> packet(scene, first);
+  constexpr bool kOwnOrigins = kQuery == Query::kAny;
+  using Rays = PacketRays<kSize, kOwnOrigins>;
+  const sobb_ray& last = rays[63 - std::countl_zero(mask)];
+  Rays packet(scene, first, find_focus<kOwnOrigins>(first, last));
   if (!(packet.centred.error < INFINITY)) return 0;
-  const uint64_t taken = packet.take(rays, mask);
+  const uint64_t taken = PacketTaker<kSize, kOwnOrigins>(scene, packet).take(rays, mask);
   constexpr int kFewest = kSize / 8;
   constexpr float kWidest = 0.02F;
   if (std::popcount(taken) < kFewest) return 0;
   if (packet.spread[0] + packet.spread[1] > kWidest) return 0;
   uint32_t lanes = 0;
   for (int lane = 0; lane < kPacketLanes; ++lane) {
-    constexpr int kRun = PacketRays<kSize>::kRun;
+    constexpr int kRun = Rays::kRun;
     lanes |= static_cast<uint32_t>((taken >> (lane * kRun) & ((1U << kRun) - 1)) != 0) << lane;
   }
   if (!traverse<W, kQuery>(scene, packet, lanes)) return 0;

@@ -41,8 +41,8 @@ struct PacketTable {
   uint32_t made = 0;              // bit k: entry k
 
   // Makes the entries of a basis.
-  template <int kSize>
-  HWY_INLINE void require(const TraceScene& scene, const PacketRays<kSize>& rays, uint32_t basis) {
+  template <class Rays>
+  HWY_INLINE void require(const TraceScene& scene, const Rays& rays, uint32_t basis) {
     const uint32_t needed = 1U << basis_direction(basis, 0) | 1U << basis_direction(basis, 1) |
                             1U << basis_direction(basis, 2);
     for (uint32_t left = needed & ~made; left != 0; left &= left - 1) {
@@ -52,8 +52,8 @@ struct PacketTable {
   }
 
  private:
-  template <int kSize>
-  HWY_NOINLINE void make(const TraceScene& scene, const PacketRays<kSize>& rays, uint32_t k) {
+  template <class Rays>
+  HWY_NOINLINE void make(const TraceScene& scene, const Rays& rays, uint32_t k) {
     const DirectionTable& table = scene.directions;
     const float n[3] = {table.x[k], table.y[k], table.z[k]};
     const float* o = rays.centred.origin;
@@ -69,7 +69,7 @@ struct PacketTable {
     for (size_t lane = 0; lane < kPacketLanes; lane += hn::Lanes(d)) {
       auto low = hn::Set(d, INFINITY);
       auto high = hn::Set(d, -INFINITY);
-      for (int i = 0; i < PacketRays<kSize>::kRun; ++i) {
+      for (int i = 0; i < Rays::kRun; ++i) {
         const auto s = hn::MulAdd(nx, hn::Load(d, rays.lane_slope[0][i] + lane),
                                   hn::MulAdd(ny, hn::Load(d, rays.lane_slope[1][i] + lane), nz));
         low = hn::Min(low, s);

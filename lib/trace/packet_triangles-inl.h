@@ -3,7 +3,7 @@
 // then the deciding test in double, four rays at a time. Included once for each Highway target.
 //
 // Vertices are projected along the packet's central ray. For a ray whose slopes differ by
-// (a, b) from its, the edge function of vertices i, j is linear in them, for the origin is shared:
+// (a, b) from its, the edge function of vertices i, j is linear in them, for the focus is shared:
 //   x_i y_j - y_i x_j + a (y_i z_j - z_i y_j) + b (z_i x_j - x_i z_j)
 // so a ray costs two multiply-adds an edge. With u = 2^-24, z the largest depth of a vertex, m its
 // largest projected coordinate, c the largest central slope, a and b at most r, and g = m + r z,
@@ -11,6 +11,8 @@
 //   projected coordinates err by at most h = u (3 c z + 3 m + 2 r z), edge functions for it by
 //   4 h g + 2 h^2; rounding the factors and the sum adds 26 u m g, the deciding test's own 4 u g^2:
 // together less than u g (16 c z + 48 g) + 64 u^2 z^2. What underflows errs by less than 2^-120.
+// A ray that is off the focus by (p, q), neither more than the deviation v, has all x less by p,
+// all y by q, so the edge function is off by p (y_i - y_j) + q (x_j - x_i): at most 4 v g.
 #if defined(SOBB_TRACE_PACKET_TRIANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_PACKET_TRIANGLES_INL_H
 #undef SOBB_TRACE_PACKET_TRIANGLES_INL_H
@@ -21,7 +23,7 @@
 #include <hwy/highway.h>
 
 #include "format/layout.h"
-#include "trace/packet_rays-inl.h"
+#include "trace/packet_take-inl.h"
 #include "trace/single-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -46,14 +48,14 @@ struct PacketBlock {
   alignas(16) float far[4];
 
   // Returns the triangles that a ray of the packet may hit.
-  template <int kSize>
-  HWY_INLINE uint32_t make(const PacketRays<kSize>& rays, const TriangleBlock& block) {
+  template <class Rays>
+  HWY_INLINE uint32_t make(const Rays& rays, const TriangleBlock& block) {
     const hn::CappedTag<float, 4> d;
     using V = hn::Vec<decltype(d)>;
     const int* axis = rays.frame.axis;
-    const V ox = hn::Set(d, static_cast<float>(rays.frame.origin[0]));
-    const V oy = hn::Set(d, static_cast<float>(rays.frame.origin[1]));
-    const V oz = hn::Set(d, static_cast<float>(rays.frame.origin[2]));
+    const V ox = hn::Set(d, rays.focus[0]);
+    const V oy = hn::Set(d, rays.focus[1]);
+    const V oz = hn::Set(d, rays.focus[2]);
     const V cx = hn::Set(d, rays.centre[0]);
     const V cy = hn::Set(d, rays.centre[1]);
     const V sign = hn::Set(d, rays.sign);
@@ -92,11 +94,13 @@ struct PacketBlock {
     const float c = std::max(std::abs(rays.centre[0]), std::abs(rays.centre[1]));
     const V g = hn::MulAdd(depth, hn::Set(d, r), hn::Max(largest_x, largest_y));
     const V slack = hn::Mul(depth, hn::Set(d, 8 * kUnit));
-    const V factor = hn::MulAdd(g, hn::Set(d, 48 * kUnit), hn::Mul(slack, hn::Set(d, 2 * c)));
+    const V off = hn::MulAdd(slack, hn::Set(d, 2 * c), hn::Set(d, 4 * rays.deviation));
+    const V factor = hn::MulAdd(g, hn::Set(d, 48 * kUnit), off);
     const V e = hn::MulAdd(g, factor, hn::MulAdd(slack, slack, hn::Set(d, 0x1p-120F)));
     hn::Store(e, d, error);
-    hn::Store(hn::Sub(front, slack), d, near);
-    hn::Store(hn::Add(back, slack), d, far);
+    const V reach = hn::Add(slack, hn::Set(d, rays.deviation));
+    hn::Store(hn::Sub(front, reach), d, near);
+    hn::Store(hn::Add(back, reach), d, far);
     const auto outside = hn::And(hn::Lt(least_high, hn::Neg(e)), hn::Gt(most_low, e));
     const auto beyond = hn::Gt(hn::Load(d, near), hn::Set(d, rays.lane_far[kAllLanes]));
     const auto before = hn::Lt(hn::Load(d, far), hn::Set(d, rays.lane_near[kAllLanes]));
@@ -104,8 +108,8 @@ struct PacketBlock {
   }
 
   // Which of as many rays as a vector has may hit a triangle.
-  template <int kSize>
-  HWY_INLINE uint32_t filter(const PacketRays<kSize>& rays, uint32_t triangle, size_t first) const {
+  template <class Rays>
+  HWY_INLINE uint32_t filter(const Rays& rays, uint32_t triangle, size_t first) const {
     const RayFloats d;
     using V = hn::Vec<RayFloats>;
     const V a = hn::Load(d, rays.slope[0] + first);
@@ -133,9 +137,10 @@ struct PacketHits {
   hn::Vec<HalfFloats> t;
   hn::Vec<HalfDoubles> w1, w2, sum;
 };
-template <int kSize>
-HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&away)[3][3],
-                                size_t first) {
+// `away` is each vertex, from the origin where that is shared.
+template <int kSize, bool kOwnOrigins>
+HWY_INLINE PacketHits intersect(const PacketRays<kSize, kOwnOrigins>& rays,
+                                const double (&away)[3][3], size_t first) {
   const HalfDoubles d;
   const HalfFloats df;
   using V = hn::Vec<HalfDoubles>;
@@ -144,10 +149,15 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&aw
   V px[3];
   V py[3];
   V pz[3];
+  const auto relative = [&](int k, int i) HWY_ATTR {
+    const V at = hn::Set(d, away[k][i]);
+    if constexpr (kOwnOrigins) return hn::Sub(at, hn::Load(d, rays.origin[k] + first));
+    return at;
+  };
   for (int i = 0; i < 3; ++i) {
-    pz[i] = hn::Set(d, away[2][i]);
-    px[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Set(d, away[0][i]), hn::Mul(sx, pz[i]))));
-    py[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(hn::Set(d, away[1][i]), hn::Mul(sy, pz[i]))));
+    pz[i] = relative(2, i);
+    px[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(0, i), hn::Mul(sx, pz[i]))));
+    py[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(1, i), hn::Mul(sy, pz[i]))));
   }
   const V w0 = hn::Sub(hn::Mul(px[2], py[1]), hn::Mul(py[2], px[1]));
   const V w1 = hn::Sub(hn::Mul(px[0], py[2]), hn::Mul(py[0], px[2]));
@@ -165,13 +175,14 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize>& rays, const double (&aw
 
 // Offers a triangle to rays from `first` on, as ClosestHit::offer() does. Returns whether one took
 // it.
-template <Query kQuery, int kSize>
-HWY_INLINE bool offer(PacketRays<kSize>& rays, const TriangleBlock& block, uint32_t triangle,
-                      size_t first, uint32_t candidates) {
+template <Query kQuery, int kSize, bool kOwnOrigins>
+HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock& block,
+                      uint32_t triangle, size_t first, uint32_t candidates) {
   double away[3][3];
   for (int k = 0; k < 3; ++k) {
     for (int i = 0; i < 3; ++i) {
-      away[k][i] = block.vertex[i][rays.frame.axis[k]][triangle] - rays.frame.origin[k];
+      const double from = kOwnOrigins ? 0 : rays.frame.origin[k];
+      away[k][i] = block.vertex[i][rays.frame.axis[k]][triangle] - from;
     }
   }
   const HalfFloats half;
@@ -211,12 +222,27 @@ HWY_INLINE bool offer(PacketRays<kSize>& rays, const TriangleBlock& block, uint3
   return true;
 }
 
+// The vectors that hold rays of some lanes.
+template <int kSize>
+HWY_INLINE uint32_t vectors_of(uint32_t lanes) {
+  constexpr uint32_t kStep = hn::MaxLanes(RayFloats());
+  constexpr uint32_t kRun = kSize / kPacketLanes;
+  if constexpr (kRun == kStep) return lanes;
+  uint32_t vectors = 0;
+  for (uint32_t vector = 0; vector < kSize / kStep; ++vector) {
+    constexpr uint32_t kShare = kStep < kRun ? 1 : kStep / kRun;
+    const uint32_t share = lanes >> (vector * kStep / kRun) & ((1U << kShare) - 1);
+    vectors |= static_cast<uint32_t>(share != 0) << vector;
+  }
+  return vectors;
+}
+
 // A leaf before the rays of some lanes.
-template <Query kQuery, int kSize>
-HWY_INLINE void test_leaf(PacketRays<kSize>& rays, const TriangleBlock* block, uint32_t triangles,
-                          uint32_t lanes) {
+template <Query kQuery, int kSize, bool kOwnOrigins>
+HWY_INLINE void test_leaf(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock* block,
+                          uint32_t triangles, uint32_t lanes) {
   constexpr size_t kStep = hn::MaxLanes(RayFloats());
-  constexpr size_t kRun = PacketRays<kSize>::kRun;
+  const uint32_t vectors = vectors_of<kSize>(lanes);
   uint32_t changed = 0;
   for (uint32_t left = 0; left < triangles; left += 4, ++block) {
     PacketBlock prepared;
@@ -224,14 +250,21 @@ HWY_INLINE void test_leaf(PacketRays<kSize>& rays, const TriangleBlock* block, u
     met &= triangles - left >= 4 ? 0xF : (1U << (triangles - left)) - 1;
     for (; met != 0; met &= met - 1) {
       const auto triangle = static_cast<uint32_t>(std::countr_zero(met));
-      for (size_t first = 0; first < kSize; first += kStep) {
-        // The lanes that these rays belong to.
-        constexpr size_t kShare = kStep / kRun == 0 ? 1 : kStep / kRun;
-        if ((lanes >> (first / kRun) & ((1U << kShare) - 1)) == 0) continue;
+      const auto test = [&](uint32_t vector) HWY_ATTR {
+        const size_t first = vector * kStep;
         const uint32_t candidates = prepared.filter(rays, triangle, first);
-        if (candidates == 0) continue;
+        if (candidates == 0) return;
         changed |= static_cast<uint32_t>(offer<kQuery>(rays, *block, triangle, first, candidates))
-                   << (first / kStep);
+                   << vector;
+      };
+      if constexpr (kSize / kStep <= 2) {  // unrolled: no count for a branch to guess
+        for (uint32_t vector = 0; vector < kSize / kStep; ++vector) {
+          if ((vectors >> vector & 1) != 0) test(vector);
+        }
+      } else {
+        for (uint32_t rest = vectors; rest != 0; rest &= rest - 1) {
+          test(static_cast<uint32_t>(std::countr_zero(rest)));
+        }
       }
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Narrow bundles of rays from one eye, as packets trace them together: the same bits as ray by ray,
-// whatever they look along, and whatever stands among them.
+// Narrow bundles of rays from one eye, or to one light, as packets trace them together: the same
+// bits as ray by ray, whatever they look along, and whatever stands among them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -58,6 +58,50 @@ std::vector<sobb_ray> bundles(const Soup& soup, const Eye& eye, double width, ui
   return rays;
 }
 
+struct Light {
+  std::string name;
+  float at[3];
+};
+
+// Within a scene, on its faces and corners, outside and far away.
+const Light kLights[] = {
+    {"inside", {0.5F, 0.45F, 0.55F}}, {"on a face", {0.5F, 0.5F, 0}},
+    {"at a corner", {1, 1, 1}},       {"above", {0.3F, 0.6F, 1.001F}},
+    {"outside", {-2, 3, 5}},          {"on an axis", {0.5F, 0.5F, 4}},
+    {"far", {3e4F, -2e4F, 1e4F}},     {"too far", {0, 1e19F, 0}},
+};
+
+// Rays from patches of `width` to a light, 64 each, a few from elsewhere. Patches lie on triangles,
+// in the air and on the scene's box; some begin at corners of triangles. Every other patch has a
+// light of its own: a corner.
+std::vector<sobb_ray> shadow_bundles(const Soup& soup, const Light& light, double width,
+                                     uint64_t seed) {
+  Random random(seed);
+  std::vector<sobb_ray> rays;
+  const auto triangles = static_cast<uint32_t>(soup.indices.size() / 3);
+  const float* const corners = soup.vertices.data();
+  for (int bundle = 0; bundle < 12; ++bundle) {
+    const float* to = bundle % 2 == 0 ? light.at : soup.corner(random.below(triangles), 0);
+    const uint32_t on = random.below(triangles);
+    float middle[3];
+    for (float& x : middle) x = random.between(0, 1);
+    if (bundle % 3 == 0) std::copy_n(soup.corner(on, 1), 3, middle);
+    if (bundle % 3 == 1) middle[random.below(3)] = static_cast<float>(random.below(2));
+    const double length = bundle < 6 ? 1 : std::ldexp(0.6 + random.uniform(), bundle - 9);
+    for (uint32_t i = 0; i < 64; ++i) {
+      sobb_ray ray = {{}, 0, {}, static_cast<float>(1 / length)};
+      const float* corner = corners + 3 * random.below(3 * triangles);
+      for (int k = 0; k < 3; ++k) {
+        ray.origin[k] = middle[k] + random.between(-width, width);
+        if (bundle > 7 && i % 9 == 0) ray.origin[k] = corner[k];
+        ray.direction[k] = static_cast<float>(length * (double{to[k]} - double{ray.origin[k]}));
+      }
+      rays.push_back(ray);
+    }
+  }
+  return rays;
+}
+
 class Packets : public testing::TestWithParam<uint32_t> {
  protected:
   // Arrays with the coherent flag, packets and occlusion against rays one by one.
@@ -84,6 +128,11 @@ class Packets : public testing::TestWithParam<uint32_t> {
       for (size_t j = 0; j < 16; ++j) {
         ASSERT_TRUE(same(hits[j], expected[i + j])) << what << ", packet, ray " << i + j;
       }
+      uint8_t occluded[16];
+      ASSERT_EQ(sobb_occluded_packet(hierarchy.get(), &rays[i], 0xFFFF, occluded), SOBB_OK);
+      for (size_t j = 0; j < 16; ++j) {
+        ASSERT_EQ(occluded[j], occlusion(expected[i + j])) << what << ", packet, ray " << i + j;
+      }
     }
   }
 
@@ -101,6 +150,26 @@ class Packets : public testing::TestWithParam<uint32_t> {
           std::vector<sobb_ray> rays = bundles(soup, eye, spread, random.bits());
           change(rays, random);
           expect_agreement(hierarchy, rays, soup.name + " from " + eye.name);
+          if (HasFatalFailure()) return;
+        }
+      }
+    }
+  }
+
+  // The same of rays to every light.
+  void check_shadows(const Soup& soup, uint64_t seed,
+                     const std::function<void(std::vector<sobb_ray>&, Random&)>& change) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    for (const uint32_t width : {4U, 8U}) {
+      sobb_build_options options = build_options(GetParam(), SOBB_QUALITY_HIGH);
+      options.width = width;
+      const HierarchyHandle hierarchy = build_soup(soup, options);
+      for (const Light& light : kLights) {
+        for (const double patch : {1e-5, 1e-3, 0.01, 0.1}) {
+          std::vector<sobb_ray> rays = shadow_bundles(soup, light, patch, random.bits());
+          change(rays, random);
+          expect_agreement(hierarchy, rays, soup.name + " to a light " + light.name);
           if (HasFatalFailure()) return;
         }
       }
@@ -149,6 +218,82 @@ TEST_P(Packets, AgreeWithStrangersAmongThem) {
           break;
         case 4:  // along another axis
           std::swap(ray.direction[0], ray.direction[2]);
+          break;
+        default:
+          break;
+      }
+    }
+  });
+}
+
+TEST_P(Packets, AgreeOnShadowsInSoups) { check_shadows(random_soup(41, 900, 0.2), 11, nothing); }
+TEST_P(Packets, AgreeOnShadowsInDust) { check_shadows(random_soup(42, 3000, 2e-3), 12, nothing); }
+TEST_P(Packets, AgreeOnShadowsInSlivers) { check_shadows(sliver_soup(43, 600), 13, nothing); }
+TEST_P(Packets, AgreeOnShadowsInAClosedBox) { check_shadows(closed_box(6), 14, nothing); }
+TEST_P(Packets, AgreeOnShadowsInTurnedBoxes) { check_shadows(turned_boxes(44, 40), 15, nothing); }
+
+TEST_P(Packets, AgreeOnShadowsOfAnyInterval) {
+  check_shadows(random_soup(45, 900, 0.2), 16, [](std::vector<sobb_ray>& rays, Random& random) {
+    for (sobb_ray& ray : rays) {
+      if (random.below(3) == 0) ray.tmin = ray.tmax * random.between(0, 1.2);
+      switch (random.below(8)) {
+        case 0:  // short of the light, or beyond it
+          ray.tmax *= random.between(0.9, 1.1);
+          break;
+        case 1:
+          ray.tmax *= random.between(0.9999, 1.0001);
+          break;
+        case 2:
+          ray.tmax = std::nextafter(ray.tmax, random.below(2) == 0 ? 0.0F : 2 * ray.tmax);
+          break;
+        default:
+          break;
+      }
+    }
+  });
+}
+
+TEST_P(Packets, AgreeOnShadowsOfAnyLength) {
+  check_shadows(random_soup(46, 900, 0.2), 17, [](std::vector<sobb_ray>& rays, Random& random) {
+    for (size_t bundle = 0; bundle < rays.size(); bundle += 64) {
+      // The longest and the shortest directions, denormal ones among them.
+      const int exponent = static_cast<int>(random.below(253)) - 126;
+      for (size_t i = bundle; i < bundle + 64; ++i) {
+        for (float& d : rays[i].direction) d = std::ldexp(d, exponent);
+        rays[i].tmax = std::ldexp(rays[i].tmax, -exponent);
+      }
+    }
+  });
+}
+
+TEST_P(Packets, AgreeOnShadowsWithStrangersAmongThem) {
+  check_shadows(random_soup(47, 900, 0.2), 18, [](std::vector<sobb_ray>& rays, Random& random) {
+    for (sobb_ray& ray : rays) {
+      switch (random.below(16)) {
+        case 0:  // invalid
+          ray.direction[random.below(3)] = std::numeric_limits<float>::quiet_NaN();
+          break;
+        case 1:
+          ray.tmax = std::numeric_limits<float>::quiet_NaN();
+          break;
+        case 2:  // without an end
+          ray.tmax = std::numeric_limits<float>::infinity();
+          break;
+        case 3:  // empty
+          ray.tmax = -ray.tmax;
+          break;
+        case 4:  // to another light, nearby or not
+          ray.direction[random.below(3)] *= random.below(2) == 0 ? 1.0001F : 0.5F;
+          break;
+        case 5:  // away from the light
+          for (float& d : ray.direction) d = -d;
+          break;
+        case 6:  // from far behind
+          for (int k = 0; k < 3; ++k) ray.origin[k] -= 40 * ray.direction[k];
+          ray.tmax += 40;
+          break;
+        case 7:
+          ray.tmin = std::numeric_limits<float>::infinity();
           break;
         default:
           break;
