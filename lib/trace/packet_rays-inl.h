@@ -61,7 +61,7 @@ struct PacketRays {
   ScaledRay centred;    // the focus from the centre, and the error of slabs
   float sign;           // of depth along frame.axis[2]
   float focus[3];       // permuted
-  float deviation;      // of rays from lines through the focus
+  float deviation = 0;  // of rays from lines through the focus
   float centre[2];      // slopes in the middle of the packet
   float spread[2];      // no slope is further from there
 
@@ -89,8 +89,7 @@ struct PacketRays {
       : frame(first),
         meeting(where),
         centred(scene, moved(first, meeting.at)),
-        sign((frame.direction_z < 0) != meeting.backward ? -1.0F : 1.0F),
-        deviation(0) {
+        sign((frame.direction_z < 0) != meeting.backward ? -1.0F : 1.0F) {
     for (int k = 0; k < 3; ++k) focus[k] = meeting.at[frame.axis[k]];
   }
 

@@ -222,27 +222,12 @@ HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock&
   return true;
 }
 
-// The vectors that hold rays of some lanes.
-template <int kSize>
-HWY_INLINE uint32_t vectors_of(uint32_t lanes) {
-  constexpr uint32_t kStep = hn::MaxLanes(RayFloats());
-  constexpr uint32_t kRun = kSize / kPacketLanes;
-  if constexpr (kRun == kStep) return lanes;
-  uint32_t vectors = 0;
-  for (uint32_t vector = 0; vector < kSize / kStep; ++vector) {
-    constexpr uint32_t kShare = kStep < kRun ? 1 : kStep / kRun;
-    const uint32_t share = lanes >> (vector * kStep / kRun) & ((1U << kShare) - 1);
-    vectors |= static_cast<uint32_t>(share != 0) << vector;
-  }
-  return vectors;
-}
-
 // A leaf before the rays of some lanes.
 template <Query kQuery, int kSize, bool kOwnOrigins>
 HWY_INLINE void test_leaf(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock* block,
                           uint32_t triangles, uint32_t lanes) {
   constexpr size_t kStep = hn::MaxLanes(RayFloats());
-  const uint32_t vectors = vectors_of<kSize>(lanes);
+  constexpr size_t kRun = kSize / kPacketLanes;
   uint32_t changed = 0;
   for (uint32_t left = 0; left < triangles; left += 4, ++block) {
     PacketBlock prepared;
@@ -250,20 +235,20 @@ HWY_INLINE void test_leaf(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBl
     met &= triangles - left >= 4 ? 0xF : (1U << (triangles - left)) - 1;
     for (; met != 0; met &= met - 1) {
       const auto triangle = static_cast<uint32_t>(std::countr_zero(met));
-      const auto test = [&](uint32_t vector) HWY_ATTR {
-        const size_t first = vector * kStep;
+      const auto test = [&](size_t first) HWY_ATTR {
         const uint32_t candidates = prepared.filter(rays, triangle, first);
         if (candidates == 0) return;
         changed |= static_cast<uint32_t>(offer<kQuery>(rays, *block, triangle, first, candidates))
-                   << vector;
+                   << (first / kStep);
       };
-      if constexpr (kSize / kStep <= 2) {  // unrolled: no count for a branch to guess
-        for (uint32_t vector = 0; vector < kSize / kStep; ++vector) {
-          if ((vectors >> vector & 1) != 0) test(vector);
+      if constexpr (kRun < kStep) {  // a vector holds rays of some lanes
+        for (size_t first = 0; first < kSize; first += kStep) {
+          if ((lanes >> (first / kRun) & ((1U << (kStep / kRun)) - 1)) != 0) test(first);
         }
       } else {
-        for (uint32_t rest = vectors; rest != 0; rest &= rest - 1) {
-          test(static_cast<uint32_t>(std::countr_zero(rest)));
+        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+          const size_t begin = static_cast<size_t>(std::countr_zero(rest)) * kRun;
+          for (size_t first = begin; first < begin + kRun; first += kStep) test(first);
         }
       }
     }
