@@ -10,7 +10,10 @@
 
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "format/layout.h"
+#include "trace/frame_ray-inl.h"
 #include "trace/slab_clip-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,13 +29,24 @@ struct FileVolumes {
   static constexpr int kWidth = W;
   static constexpr bool kAxesOnly = kAxes;
   using Node = sobb::Node<W>;
-  using Ray = RayTable;
+  using Ray = std::conditional_t<kAxes, FrameRay<W>, RayTable>;
+
+  // Whether a node needs the frame's directions only. Where all do, nobody asks.
+  static HWY_INLINE bool on_frame(const Node& node) requires(!kAxes) {
+    return (node.meta[0] & kSharedBit) != 0 && node.basis[0] == kAxesBasis;
+  }
+
+  template <class V = hn::Vec<ChildFloats<W>>>
+  static HWY_INLINE void clip(const typename FrameRay<W>::InRegisters& ray, const Node& node,
+                              size_t first, V& near, V& far) {
+    ray.clip(node, first, near, far);
+  }
 
   template <class V = hn::Vec<ChildFloats<W>>>
   static HWY_INLINE void clip(const RayTable& table, const Node& node, size_t first, V& near,
                               V& far) {
     const bool shared = (node.meta[0] & kSharedBit) != 0;
-    if (kAxes || (shared && node.basis[0] == kAxesBasis)) {
+    if (shared && node.basis[0] == kAxesBasis) {
       // Where in the table is known: what is there need not wait for the node.
       for (uint32_t k = 0; k < 3; ++k) clip_shared<W>(table, node.slab[k], k, first, near, far);
       return;

@@ -6,7 +6,9 @@
 //   kWidth            children a node at most
 //   Node              with reference[kWidth] and meta[kWidth] as format/layout.h has them
 //   Ray               the ray's side of the tests, made of (const TraceScene&, const ScaledRay&)
-//   clip(ray, node, first, near, far)   clips the intervals of the children from `first` on
+//   clip(ray, node, first, near, far)   clips the intervals of the children from `first` on; `ray`
+//                     is a Ray, or its InRegisters if it has such
+//   on_frame(node)    not in all: whether clip() can do with a FrameRay
 #if defined(SOBB_TRACE_NODE_TEST_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_NODE_TEST_INL_H
 #undef SOBB_TRACE_NODE_TEST_INL_H
@@ -27,37 +29,39 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The children that a ray meets: bit i of `mask`, and their keys.
+// The children that a ray meets: bit i of `mask`; and how far away.
 template <int W>
 struct NodeHits {
+  using D = ChildFloats<W>;
+  static constexpr size_t kLanes = hn::MaxLanes(D());
   uint32_t mask;
-  alignas(64) uint32_t key_high[W];
+  hn::Vec<D> near[W / kLanes];
 
+  // The upper halves of the keys.
   template <class Node>
-  StackKey key(const Node& node, uint32_t child) const {
-    return static_cast<StackKey>(key_high[child]) << 32 | node.reference[child];
+  HWY_INLINE void store_keys(const Node& node, uint32_t* to) const {
+    const hn::RebindToUnsigned<D> du;
+    const hn::Rebind<uint16_t, D> d16;
+    for (size_t i = 0; i < W / kLanes; ++i) {
+      const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + i * kLanes));
+      const auto triangles = hn::And(meta, hn::Set(du, kTriangleMask));
+      const auto distance = hn::AndNot(hn::Set(du, kKeyMetaMask), hn::BitCast(du, near[i]));
+      hn::Store(hn::Or(distance, triangles), du, to + i * kLanes);
+    }
   }
 };
 
-template <class Volumes, int W = Volumes::kWidth>
-HWY_INLINE void test_node(const typename Volumes::Ray& ray, const typename Volumes::Node& node,
-                          float tmin, float limit, NodeHits<W>& hits) {
+// Between tmin and the limit.
+template <class Volumes, class Ray, int W = Volumes::kWidth, class V = hn::Vec<ChildFloats<W>>>
+HWY_INLINE void test_node(const Ray& ray, const typename Volumes::Node& node, V tmin, V limit,
+                          NodeHits<W>& hits) {
   const ChildFloats<W> d;
-  const hn::RebindToUnsigned<decltype(d)> du;
-  const hn::Rebind<uint16_t, decltype(d)> d16;
   hits.mask = 0;
-  for (size_t first = 0; first < W; first += hn::Lanes(d)) {
-    auto near = hn::Set(d, tmin);
-    auto far = hn::Set(d, limit);
-    Volumes::clip(ray, node, first, near, far);
-    hits.mask |= mask_bits(d, hn::Le(near, far)) << first;
-    // The upper half of a StackKey: distance, leaf bit, triangles.
-    const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
-    const auto leaf = hn::And(hn::ShiftRight<9>(meta), hn::Set(du, kLeafBit >> 9));
-    const auto triangles = hn::And(meta, hn::Set(du, kTriangleMask));
-    const auto distance =
-        hn::And(hn::ShiftLeft<1>(hn::BitCast(du, near)), hn::Set(du, ~kKeyMetaMask));
-    hn::Store(hn::Or(distance, hn::Or(leaf, triangles)), du, hits.key_high + first);
+  for (size_t i = 0; i < W / hits.kLanes; ++i) {
+    V far = limit;
+    hits.near[i] = tmin;
+    Volumes::clip(ray, node, i * hits.kLanes, hits.near[i], far);
+    hits.mask |= mask_bits(d, hn::Le(hits.near[i], far)) << (i * hits.kLanes);
   }
   hits.mask &= (1U << child_count(node)) - 1;
 }

@@ -49,9 +49,8 @@ HWY_INLINE SlabCoefficients<V> slab_coefficients(D d, V nx, V ny, V nz, V ox, V 
   const V nd = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
   const V away = hn::CopySign(hn::Max(hn::Abs(nd), hn::Set(d, kSmallestCosine)), nd);
   const V r = hn::Div(hn::Set(d, 1.0F), away);
-  const V offset = hn::Mul(no, r);
   const V slack = hn::Mul(error, hn::Abs(r));
-  return {r, hn::Neg(hn::Add(offset, slack)), hn::Sub(slack, offset)};
+  return {r, hn::NegMulSub(no, r, slack), hn::NegMulAdd(no, r, slack)};
 }
 
 // For one ray: by direction, one vector of four each, so that a lookup is one load.

@@ -12,8 +12,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
+#include "trace/frame_ray-inl.h"
 #include "trace/node_test-inl.h"
 #include "trace/triangle_block-inl.h"
 
@@ -63,26 +65,21 @@ HWY_INLINE void prefetch(const TraceScene& scene, StackKey key) {
   for (size_t line = 0; line < sizeof(Node); line += 64) hwy::Prefetch(bytes + line);
 }
 
-// Pushes the children met but the nearest, furthest first, and returns the nearest's key. One or
-// two are the rule and have paths of their own.
-template <int W, class Node>
-HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>& hits,
-                                     const Node& node, StackKey*& top) {
+// Pushes the children met, of which there are at least two, but the nearest, furthest first, and
+// returns the nearest's key. Two are the rule and have a path of their own.
+template <class Volumes, class Node = typename Volumes::Node>
+HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const Node& node,
+                                     const NodeHits<Volumes::kWidth>& hits, StackKey*& top) {
+  alignas(64) uint32_t key_high[Volumes::kWidth];
+  hits.store_keys(node, key_high);
   uint32_t mask = hits.mask;
-  const auto next_child = [&]() HWY_ATTR {
+  const auto next_key = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
-    return child;
-  };
-  const auto next_key = [&]() HWY_ATTR {
-    const StackKey key = hits.key(node, next_child());
+    const StackKey key = static_cast<StackKey>(key_high[child]) << 32 | node.reference[child];
     prefetch<Node>(scene, key);
     return key;
   };
-  if ((mask & (mask - 1)) == 0) {
-    const uint32_t child = next_child();
-    return make_key(0, node.meta[child], node.reference[child]);
-  }
   const StackKey first = next_key();
   const StackKey second = next_key();
   if (mask == 0) {
@@ -107,80 +104,155 @@ HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const NodeHits<W>&
 }
 
 // The same in the node's order, which a query for any hit is as good with.
-template <int W, class Node>
-HWY_INLINE StackKey push_but_first(const TraceScene& scene, const NodeHits<W>& hits,
-                                   const Node& node, StackKey*& top) {
-  uint32_t mask = hits.mask;
+template <class Node>
+HWY_INLINE StackKey push_but_first(const TraceScene& scene, const Node& node, uint32_t mask,
+                                   StackKey*& top) {
   const auto next_key = [&]() HWY_ATTR {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
     return make_key(0, node.meta[child], node.reference[child]);
   };
   const StackKey first = next_key();
-  while (mask != 0) {
+  do {
     const StackKey key = next_key();
     prefetch<Node>(scene, key);
     *top++ = key;
-  }
+  } while (mask != 0);
   return first;
 }
 
-// A ray as traversals read it, whichever way they go.
-template <class Volumes>
-struct PreparedRay {
-  ScaledRay scaled;
-  BlockRay block_ray;
-  typename Volumes::Ray volume_ray;
+// What is left to visit: at first the root.
+template <int W>
+struct Path {
+  StackKey* top;
+  StackKey key[2 + kMaxDepth * (W - 1)];  // kNoKey, then the furthest first
 
-  HWY_INLINE PreparedRay(const TraceScene& scene, const sobb_ray& ray)
-      : scaled(scene, ray), block_ray(ray), volume_ray(scene, scaled) {}
-
-  float limit(const ClosestHit& best) const { return scale_limit(best.limit, scaled.scale); }
+  Path() : top(key + 2) {
+    key[0] = kNoKey;
+    key[1] = kRootKey;
+  }
 };
 
-// Traces what is below `key`, a node or a leaf that the ray meets.
-template <class Volumes, Query kQuery, class CounterType>
-HWY_INLINE void traverse_from(const TraceScene& scene, const PreparedRay<Volumes>& ray,
-                              StackKey key, ClosestHit& best, CounterType counter) {
-  using Node = typename Volumes::Node;
-  constexpr int kWidth = Volumes::kWidth;
-  const auto* nodes = static_cast<const Node*>(scene.nodes);
+// As a loop over nodes wants a ray.
+template <class Ray>
+HWY_INLINE const Ray& in_registers(const Ray& ray) {
+  return ray;
+}
+template <int W>
+HWY_INLINE typename FrameRay<W>::InRegisters in_registers(const FrameRay<W>& ray) {
+  return typename FrameRay<W>::InRegisters(ray);
+}
 
-  StackKey stack[kMaxDepth * (kWidth - 1) + 1];
-  StackKey* top = stack;
-  float limit = ray.limit(best);
+template <class Volumes>
+concept HasFrameNodes = requires(const typename Volumes::Node& node) {
+  Volumes::on_frame(node);
+};
+
+// Whether this ray's side is enough for the node.
+template <class Volumes, class Ray>
+HWY_INLINE bool covers(const typename Volumes::Node& node) {
+  if constexpr (HasFrameNodes<Volumes> && std::is_same_v<Ray, FrameRay<Volumes::kWidth>>) {
+    return Volumes::on_frame(node);
+  }
+  return true;
+}
+
+// Takes the path to the next leaf, or node that the ray's side is not enough for, and returns its
+// key; or to the end, kNoKey. A function of its own, so that all that the loop needs has registers.
+template <class Volumes, Query kQuery, class Ray, class CounterType>
+HWY_NOINLINE StackKey next_stop(const TraceScene& scene, const Ray& in_memory, float tmin,
+                                float limit, Path<Volumes::kWidth>& path, CounterType counter) {
+  constexpr int kWidth = Volumes::kWidth;
+  const ChildFloats<kWidth> d;
+  const auto* nodes = static_cast<const typename Volumes::Node*>(scene.nodes);
+  const auto& ray = in_registers(in_memory);
+  const auto least = hn::Set(d, tmin);
+  const auto most = hn::Set(d, limit);
+  const StackKey last = last_key(limit);
+  StackKey* top = path.top;
   for (;;) {
-    bool met = true;
-    while (met && !key_is_leaf(key)) {
-      const Node& node = nodes[key_index(key)];
-      NodeHits<kWidth> hits;
-      test_node<Volumes>(ray.volume_ray, node, ray.scaled.tmin, limit, hits);
-      counter.add_node(child_count(node));
-      met = hits.mask != 0;
-      if (met && kQuery == Query::kAny) key = push_but_first(scene, hits, node, top);
-      if (met && kQuery == Query::kClosest) key = push_but_nearest(scene, hits, node, top);
-    }
-    if (met) {
-      counter.add_leaf(key_triangles(key));
-      if (test_leaf<kQuery>(ray.block_ray, scene.blocks + key_index(key), key_triangles(key),
-                            best)) {
-        if (kQuery == Query::kAny) return;
-        limit = ray.limit(best);
+    StackKey key = *--top;
+    while (key > last) key = *--top;
+    uint32_t index = key_index(key);
+    uint32_t triangles = key_triangles(key);
+    for (;;) {
+      if (triangles != 0 || !covers<Volumes, Ray>(nodes[index])) {
+        path.top = top;
+        return make_key(0, triangles, index);
       }
+      const auto& node = nodes[index];
+      NodeHits<kWidth> hits;
+      test_node<Volumes>(ray, node, least, most, hits);
+      counter.add_node(child_count(node));
+      if (hits.mask == 0) break;
+      if ((hits.mask & (hits.mask - 1)) == 0) {
+        const auto child = static_cast<uint32_t>(std::countr_zero(hits.mask));
+        index = node.reference[child];
+        triangles = node.meta[child] & kTriangleMask;
+        continue;
+      }
+      key = kQuery == Query::kAny ? push_but_first(scene, node, hits.mask, top)
+                                  : push_but_nearest<Volumes>(scene, node, hits, top);
+      index = key_index(key);
+      triangles = key_triangles(key);
     }
-    const StackKey last = last_key(limit);
-    do {
-      if (top == stack) return;
-      key = *--top;
-    } while (key > last);
   }
 }
 
+// A ray before triangles, and what it found.
+struct TriangleSide {
+  const BlockRay& ray;
+  ClosestHit& best;
+};
+
+// Takes the path to its end, or to a node that the ray's side is not enough for, which is then on
+// top. Returns whether to its end.
+template <class Volumes, Query kQuery, class Ray, class CounterType>
+HWY_INLINE bool take_path(const TraceScene& scene, const Ray& ray, const ScaledRay& scaled,
+                          TriangleSide triangle_side, Path<Volumes::kWidth>& path,
+                          CounterType counter) {
+  ClosestHit& best = triangle_side.best;
+  float limit = scale_limit(best.limit, scaled.scale);
+  for (;;) {
+    const StackKey key = next_stop<Volumes, kQuery>(scene, ray, scaled.tmin, limit, path, counter);
+    if (key == kNoKey) return true;
+    if (!key_is_leaf(key)) {
+      *path.top++ = key;
+      return false;
+    }
+    counter.add_leaf(key_triangles(key));
+    if (test_leaf<kQuery>(triangle_side.ray, scene.blocks + key_index(key), key_triangles(key),
+                          best)) {
+      if (kQuery == Query::kAny) return true;
+      limit = scale_limit(best.limit, scaled.scale);
+    }
+  }
+}
+
+// Takes it to its end.
+template <class Volumes, Query kQuery, class CounterType>
+HWY_NOINLINE void take_rest(const TraceScene& scene, const ScaledRay& scaled,
+                            TriangleSide triangle_side, Path<Volumes::kWidth>& path,
+                            CounterType counter) {
+  const typename Volumes::Ray ray(scene, scaled);
+  take_path<Volumes, kQuery>(scene, ray, scaled, triangle_side, path, counter);
+}
+
+// As long as nodes lie along the frame there is no table, which many rays never need.
 template <class Volumes, Query kQuery, class CounterType>
 HWY_INLINE void trace_ray(const TraceScene& scene, const sobb_ray& ray, ClosestHit& best,
                           CounterType counter) {
-  const PreparedRay<Volumes> prepared(scene, ray);
-  traverse_from<Volumes, kQuery>(scene, prepared, kRootKey, best, counter);
+  using First =
+      std::conditional_t<HasFrameNodes<Volumes>, FrameRay<Volumes::kWidth>, typename Volumes::Ray>;
+  const ScaledRay scaled(scene, ray);
+  const BlockRay block_ray(ray);
+  const TriangleSide triangle_side = {block_ray, best};
+  const First first(scene, scaled);
+  Path<Volumes::kWidth> path;
+  const bool done = take_path<Volumes, kQuery>(scene, first, scaled, triangle_side, path, counter);
+  if constexpr (HasFrameNodes<Volumes>) {
+    if (!done) take_rest<Volumes, kQuery>(scene, scaled, triangle_side, path, counter);
+  }
 }
 
 }  // namespace

@@ -50,5 +50,32 @@ INSTANTIATE_TEST_SUITE_P(
                     placed(random_soup(11, 300), 0x1p59, 0)),
     [](const testing::TestParamInfo<Soup>& info) { return "soup" + std::to_string(info.index); });
 
+// Rays begin without the table, which those that meet a node off the frame then go on with.
+TEST(MixedNodes, ReturnTheOraclesBits) {
+  Soup soup = closed_box(24);
+  const Soup slivers = sliver_soup(12, 3000);
+  for (uint64_t i = 0; i < slivers.indices.size() / 3; ++i) {
+    soup.add(slivers.corner(i, 0), slivers.corner(i, 1), slivers.corner(i, 2));
+  }
+  const uint64_t seed = 20252;
+  const std::vector<sobb_ray> rays = mixed_rays(soup, seed, 3000);
+  const std::vector<sobb_hit> expected = oracle(soup, rays);
+  for (const uint32_t width : {4U, 8U}) {
+    sobb_build_options options = {};
+    options.struct_size = sizeof options;
+    options.width = width;
+    const HierarchyHandle hierarchy = build_soup(soup, options);
+    ASSERT_TRUE(hierarchy);
+    sobb_info info = {};
+    info.struct_size = sizeof info;
+    ASSERT_EQ(sobb_get_info(hierarchy.get(), &info), SOBB_OK);
+    EXPECT_GT(info.axes_nodes, 0U);
+    EXPECT_GT(info.shared_nodes, 0U);
+    EXPECT_GT(info.own_nodes, 0U);
+    check_calls(hierarchy, rays, expected,
+                "seed " + std::to_string(seed) + " width " + std::to_string(width));
+  }
+}
+
 }  // namespace
 }  // namespace sobb::test

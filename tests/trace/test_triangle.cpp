@@ -166,12 +166,11 @@ TEST(StackKey, LastKeyNeverCullsWhatIsAsNear) {
                                    static_cast<int>(random.below(250)) - 125);
     // A key at that very distance, whatever it names.
     const StackKey meta = random.below(kKeyMetaMask + 1);
-    const auto distance =
-        static_cast<StackKey>(std::bit_cast<uint32_t>(limit) << 1 & ~kKeyMetaMask);
+    const auto distance = static_cast<StackKey>(std::bit_cast<uint32_t>(limit) & ~kKeyMetaMask);
     const StackKey key = (distance | meta) << 32 | static_cast<uint32_t>(random.bits());
     ASSERT_LE(key, last_key(limit)) << "seed " << kSeed << " limit " << limit;
     const auto beyond =
-        static_cast<StackKey>(std::bit_cast<uint32_t>(limit * 1.0001F) << 1 & ~kKeyMetaMask);
+        static_cast<StackKey>(std::bit_cast<uint32_t>(limit * 1.0001F) & ~kKeyMetaMask);
     ASSERT_GT(beyond << 32, last_key(limit)) << "seed " << kSeed << " limit " << limit;
   }
 }
