@@ -21,8 +21,8 @@ targets=("$@")
 need_packages $build_packages $test_packages
 launcher=()
 command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset fuzz "${launcher[@]}" >/dev/null
-cmake --build --preset fuzz --target "${targets[@]/#/fuzz_}"
+cmake --preset asan "${launcher[@]}" >/dev/null
+cmake --build --preset asan --target "${targets[@]/#/fuzz_}"
 
 # Seeds are read only; what is found on the way stays in build/fuzz/corpus, for the next run.
 seeds_of() {
@@ -45,7 +45,7 @@ fuzz() {
     -print_final_stats=1 -artifact_prefix="build/fuzz/crashes/$target-")
   [[ -f $dictionary ]] && options+=(-dict="$dictionary")
   mkdir -p "$found"
-  if ! "build/fuzz/bin/fuzz_$target" "${options[@]}" "$found" "$(seeds_of "$target")" \
+  if ! "build/asan/bin/fuzz_$target" "${options[@]}" "$found" "$(seeds_of "$target")" \
     >"$log" 2>&1; then
     crashes=$((crashes + 1))
     grep -vE '^#[0-9]+\s' "$log" | tail -n 40

@@ -79,6 +79,7 @@ if [[ $quick == no ]]; then
   check "clang-tidy" tidy
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
     ctest --preset asan -j "$jobs"
+  check "short fuzz run" scripts/fuzz.sh 2
 fi
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
