@@ -96,7 +96,7 @@ enum class SplitKind : uint8_t {
   kCentres,  // of their boxes
   kLengths,  // of their boxes' longest sides: one bin for about each factor of the root of two,
              // along the first axis
-  kPlanes,  // each is in all bins that it meets, and is cut: a spatial split
+  kPlanes,   // each is in all bins that it meets, and is cut: a spatial split
 };
 inline constexpr SplitKind kSplitKinds[] = {SplitKind::kCentres, SplitKind::kLengths,
                                             SplitKind::kPlanes};
