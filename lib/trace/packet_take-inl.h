@@ -23,15 +23,18 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// t in units of depth, rounded to the safe side. The slack is for denormal t.
+// t in units of depth, rounded to the safe side. A denormal t was rounded by as much as it is
+// (scaled_ray.h), which is much where the direction is long.
 template <class V>
 HWY_INLINE V depth_before(RayFloats d, V t, V depth_of_one) {
-  const V depth = hn::Mul(hn::Mul(t, depth_of_one), hn::Set(d, 1 - 0x1p-21F));
+  const V least = hn::Max(hn::Sub(t, hn::Set(d, kSmallestFloat)), hn::Zero(d));
+  const V depth = hn::Mul(hn::Mul(least, depth_of_one), hn::Set(d, 1 - 0x1p-21F));
   return hn::Max(hn::Sub(depth, hn::Set(d, 0x1p-100F)), hn::Zero(d));
 }
 template <class V>
 HWY_INLINE V depth_beyond(RayFloats d, V t, V depth_of_one) {
-  const V depth = hn::Mul(hn::Mul(t, depth_of_one), hn::Set(d, 1 + 0x1p-21F));
+  const V most = hn::Add(t, hn::Set(d, kSmallestFloat));
+  const V depth = hn::Mul(hn::Mul(most, depth_of_one), hn::Set(d, 1 + 0x1p-21F));
   return hn::Add(depth, hn::Set(d, 0x1p-100F));
 }
 
@@ -272,8 +275,9 @@ class PacketTaker {
       const auto size = hn::Abs(hn::Load(d, packet_.direction_z + i));
       const auto t1 = hn::PromoteTo(d, hn::Load(df, packet_.limit + i));
       const auto t0 = hn::PromoteTo(d, hn::Load(df, packet_.tmin + i));
-      const auto begin = hn::Mul(t0, size);
-      const auto end = hn::Mul(t1, size);
+      const auto smallest = hn::Set(d, double{kSmallestFloat});  // as depth_before() has it
+      const auto begin = hn::Mul(hn::Max(hn::Sub(t0, smallest), zero), size);
+      const auto end = hn::Mul(hn::Add(t1, smallest), size);
       const auto last = hn::Mul(end, hn::Set(d, 1 + 0x1p-23));  // a hit's t is rounded
       off = hn::Max(off, hn::Sub(last, depth));
       furthest = hn::Max(furthest, hn::Abs(depth));

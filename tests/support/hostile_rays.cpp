@@ -103,6 +103,9 @@ class Maker {
       }
       case RayFamily::kZeros:
         return with_zeros(triangle.edge_point(i, random_.uniform()));
+      case RayFamily::kFromPoint:
+      case RayFamily::kToPoint:
+        return of_bundle(family == RayFamily::kToPoint);
       case RayFamily::kDistant:
         break;
     }
@@ -159,10 +162,36 @@ class Maker {
     return ray;
   }
 
+  // The next ray between a point and places about a vertex.
+  sobb_ray of_bundle(bool to_point) {
+    if (bundled_++ % 64 == 0) {
+      const Triangle triangle(soup_,
+                              random_.below(static_cast<uint32_t>(soup_.indices.size() / 3)));
+      target_ = triangle.corner[random_.below(3)];
+      const sobb_ray from = ray_of(target_ - about_size() * any_direction(random_), {});
+      point_ = {from.origin[0], from.origin[1], from.origin[2]};
+      static constexpr double kLengths[] = {1, 1, 0x1p-30, 0x1p40, 0x1p90, 0x1p-100};
+      length_ = kLengths[random_.below(std::size(kLengths))];
+    }
+    const double width = random_.below(4) == 0 ? 0 : 0.01 * length(target_ - point_);
+    const Vec target = target_ + width * random_.uniform() * any_direction(random_);
+    if (!to_point) return ray_of(point_, length_ * (target - point_));
+    const sobb_ray from = ray_of(target, {});
+    const Vec origin = {from.origin[0], from.origin[1], from.origin[2]};
+    sobb_ray ray = ray_of(origin, length_ * (point_ - origin));
+    ray.tmax = static_cast<float>(1 / length_);
+    return ray;
+  }
+
   const Soup& soup_;
   Normals normals_;
   Random random_;
   double size_;
+  // Of the bundle under way.
+  uint32_t bundled_ = 0;
+  Vec target_;
+  Vec point_;
+  double length_ = 1;
 };
 
 }  // namespace

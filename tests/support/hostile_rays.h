@@ -18,12 +18,15 @@ enum class RayFamily {
   kAlongSlab,  // perpendicular, within zero to some ulps, to a slab's normal: n . d is all rounding
   kAcrossSlab,  // along a normal of the table
   kZeros,       // components +0, -0, denormal, tiny and huge beside ordinary ones
+  kFromPoint,   // bundles from one origin, as packets take them, in directions of any length
+  kToPoint,     // bundles that end at one point
   kDistant      // from 1e-6 to 1e6 of the scene's size away
 };
 
 inline constexpr std::array kRayFamilies = {
-    RayFamily::kVertices,   RayFamily::kEdges, RayFamily::kInPlane, RayFamily::kAlongSlab,
-    RayFamily::kAcrossSlab, RayFamily::kZeros, RayFamily::kDistant};
+    RayFamily::kVertices,  RayFamily::kEdges,      RayFamily::kInPlane,
+    RayFamily::kAlongSlab, RayFamily::kAcrossSlab, RayFamily::kZeros,
+    RayFamily::kFromPoint, RayFamily::kToPoint,    RayFamily::kDistant};
 
 // `normals` are those of the table that the rays are traced with.
 std::vector<sobb_ray> hostile_rays(const Soup& soup, RayFamily family,
