@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the tests share: a small mesh, its hierarchies, rays around it, the command line."""
 
+import signal
 import subprocess
 import sys
 
@@ -11,6 +12,10 @@ import sobb
 from sobb import rays as make
 
 SEED = 20250607
+
+# A shell's background jobs ignore interrupts, and what they start inherits it: tests that interrupt
+# a command would wait for its end.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
