@@ -6,9 +6,56 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 namespace sobb {
 namespace {
+
+struct Arena {
+  explicit Arena(int threads) : size(threads), arena(threads) {}
+
+  int size;
+  tbb::task_arena arena;
+  std::unique_ptr<Arena> next;
+};
+
+// Arenas that nobody is in. They are kept for ever, as many as were ever used at once: an arena
+// that is destroyed while a worker is about to leave it is not freed (TBB 2021.8: 30 KB a build).
+class IdleArenas {
+ public:
+  // One of `size` threads.
+  std::unique_ptr<Arena> take(int size) {
+    {
+      const std::scoped_lock lock(mutex_);
+      std::unique_ptr<Arena>* link = &first_;
+      while (*link && (*link)->size != size) link = &(*link)->next;
+      if (*link) {
+        std::unique_ptr<Arena> found = std::move(*link);
+        *link = std::move(found->next);
+        return found;
+      }
+    }
+    return std::make_unique<Arena>(size);
+  }
+
+  void give_back(std::unique_ptr<Arena> arena) {
+    const std::scoped_lock lock(mutex_);
+    arena->next = std::move(first_);
+    first_ = std::move(arena);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<Arena> first_;
+};
+
+// Never destroyed: at the process's end TBB may have gone before.
+IdleArenas& idle_arenas() {
+  static IdleArenas& arenas = *new IdleArenas;
+  return arenas;
+}
 
 template <class Body>
 void within_arena(uint32_t threads, const Body& body) {
@@ -19,8 +66,10 @@ void within_arena(uint32_t threads, const Body& body) {
   // TBB never runs more than its limit, complains of a larger arena, and allocates all its slots.
   const size_t limit =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  tbb::task_arena arena(static_cast<int>(std::min<size_t>(threads, limit)));
-  arena.execute(body);
+  std::unique_ptr<Arena> arena =
+      idle_arenas().take(static_cast<int>(std::min<size_t>(threads, limit)));
+  arena->arena.execute(body);
+  idle_arenas().give_back(std::move(arena));
 }
 
 }  // namespace

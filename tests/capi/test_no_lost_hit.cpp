@@ -49,7 +49,7 @@ class NoLostHit : public testing::TestWithParam<Soup> {};
 
 TEST_P(NoLostHit, WhateverStrainsTheBounds) {
   const Soup& soup = GetParam();
-  constexpr uint32_t kRays = 600;  // enough for batches
+  constexpr uint32_t kRays = 320;  // enough for batches
   uint64_t seed = 4100;
   for (const uint32_t volume : {SOBB_VOLUME_AABB, SOBB_VOLUME_SOBB}) {
     for (const uint32_t quality : {SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
