@@ -19,9 +19,8 @@ targets=("$@")
 
 # shellcheck disable=SC2086 # lists of words
 need_packages $build_packages $test_packages
-launcher=()
-command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-cmake --preset asan "${launcher[@]}" >/dev/null
+use_ccache
+cmake --preset asan >/dev/null
 cmake --build --preset asan --target "${targets[@]/#/fuzz_}"
 
 # Seeds are read only; what is found on the way stays in build/fuzz/corpus, for the next run.

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the scripts: the Debian 12 packages that the project needs, and how they come.
+# Sourced by the scripts: the Debian 12 packages that the project needs, how they come, and the
+# compilers' cache.
 
 # Compilers, tools and libraries of a release build, and Python's virtual environments.
 build_packages="g++ cmake ninja-build ccache pkg-config
@@ -35,4 +36,11 @@ need_packages() {
   "${root[@]}" apt-get update -qq
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get install -qq -y --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# Compiles through ccache, if there is one; what it keeps serves every clone of the repository.
+use_ccache() {
+  command -v ccache >/dev/null || return 0
+  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 }

@@ -31,8 +31,7 @@ if [[ ! -f $stamp || $(<"$stamp") != "$made_for" ]]; then
   echo "$made_for" >"$stamp"
 fi
 
-command -v ccache >/dev/null &&
-  export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+use_ccache
 if [[ ! -f build/release/build.ninja || $tests == ON ]]; then
   cmake --preset release -DSOBB_BUILD_TESTS=$tests >/dev/null
 fi

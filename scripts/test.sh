@@ -5,6 +5,7 @@
 # usage: scripts/test.sh [--quick]   --quick: the release build's tests only
 set -euo pipefail
 cd "$(dirname "$0")/.."
+source scripts/packages.sh
 
 quick=no
 case "${1:-}" in
@@ -70,6 +71,7 @@ ruff() {
 }
 
 check "release build, g++" scripts/setup.sh --tests
+use_ccache
 check "C++ tests" ctest --preset release -j "$jobs"
 check "Python tests" .venv/bin/python -m pytest -q python/tests
 if [[ $quick == no ]]; then
