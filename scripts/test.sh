@@ -82,6 +82,8 @@ if [[ $quick == no ]]; then
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
     ctest --preset asan -j "$jobs"
   check "short fuzz run" scripts/fuzz.sh 2
+  check "ThreadSanitizer build, clang" build tsan
+  check "C++ tests under ThreadSanitizer" ctest --preset tsan -j "$jobs"
 fi
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -35,7 +36,7 @@ using SceneHandle = std::unique_ptr<sobb_scene, Release>;
 std::vector<std::string> scenes() {
   std::vector<std::string> names;
   for (const char* name : {"hairball", "wool", "pipes", "foliage", "city", "terrain"}) {
-    names.push_back(std::string("builtin:") + name);
+    names.push_back(std::string("builtin:") + name + ":60000");
   }
   names.emplace_back("builtin:city:10000@30");
   const char* folder = std::getenv("SOBB_SCENES");
@@ -166,10 +167,9 @@ TEST_P(Scenes, AreTheSameEveryWay) {
 
 INSTANTIATE_TEST_SUITE_P(Each, Scenes, testing::ValuesIn(scenes()),
                          [](const testing::TestParamInfo<std::string>& info) {
-                           std::string name = info.param.substr(info.param.find_last_of("/:") + 1);
-                           if (name.find_first_not_of("0123456789@") == std::string::npos) {
-                             name = "small_turned_city";
-                           }
+                           const size_t file = info.param.find_last_of('/') + 1;
+                           const size_t builtin = info.param.starts_with("builtin:") ? 8 : 0;
+                           std::string name = info.param.substr(std::max(file, builtin));
                            for (char& c : name) {
                              if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
                            }
