@@ -77,6 +77,7 @@ check "Python tests" .venv/bin/python -m pytest -q python/tests
 if [[ $quick == no ]]; then
   check "clang-format" format
   check "ruff" ruff
+  check "wheel" scripts/wheel_check.sh
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \

@@ -2,7 +2,6 @@
 """Figures from the benchmark programs: runs one, reads the JSON that Google Benchmark writes."""
 
 import json
-import os
 import shutil
 import subprocess
 import tempfile
@@ -11,9 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from sobb import atomic
-
-_CHECKOUT = Path(__file__).resolve().parents[2]
+from sobb import atomic, library
 
 #: The name of a row -> its time in ms (`real_time`) and counters.
 Rows = dict[str, dict[str, Any]]
@@ -29,13 +26,13 @@ class Report:
 
 
 def find_program(name: str) -> Path:
-    """A program beside the folder of SOBB_LIBRARY_PATH, in the checkout's release build, or in
-    PATH. Raises OSError."""
-    folder = os.environ.get("SOBB_LIBRARY_PATH")
-    build = Path(folder).parent if folder else _CHECKOUT / "build" / "release"
-    found = shutil.which(name, path=str(build / "bin")) or shutil.which(name)
+    """A program in bin beside the libraries' folder, or in PATH. Raises OSError."""
+    folder = library.folder()
+    beside = None if folder is None else folder.parent / "bin"
+    found = (beside and shutil.which(name, path=str(beside))) or shutil.which(name)
     if found is None:
-        raise OSError(f"no {name} in {build / 'bin'} nor in PATH: build it (scripts/setup.sh)")
+        places = "PATH" if beside is None else f"{beside} nor in PATH"
+        raise OSError(f"no {name} in {places}: build it (scripts/setup.sh)")
     return Path(found)
 
 

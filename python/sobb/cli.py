@@ -19,6 +19,9 @@ from sobb.view import View, default_view, read_views
 
 _MAX_SIDE = 16384
 
+#: The extra of the package that a command needs, where that is another than "commands".
+_EXTRAS = {"paper": "paper", "sweep": "sweep", "compare": "sweep", "report": "report"}
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command; returns its exit code (wrong usage exits with 2 by itself)."""
@@ -34,6 +37,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail("interrupted")
     except MemoryError:
         return _fail("out of memory")
+    except ModuleNotFoundError as error:
+        return _fail(f"{error}: install what this command needs, the extra sobb[{options.extra}]")
     except (sobb.Error, OSError, ValueError) as error:
         return _fail(str(error))
 
@@ -128,7 +133,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _add(commands, name: str, run: Callable[[argparse.Namespace], None], text: str):
     command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
-    command.set_defaults(command=run)
+    command.set_defaults(command=run, extra=_EXTRAS.get(name, "commands"))
     return command
 
 
@@ -202,13 +207,13 @@ def _render(options: argparse.Namespace) -> None:
     hierarchy, views = _hierarchy_and_views(options.source, options.cameras)
     if options.view >= len(views):
         raise ValueError(f"{options.source}: no view {options.view}, there are {len(views)}")
-    view = views[options.view]
+    view, (width, height) = views[options.view], options.size
     with bar("render") as progress:
         if options.heat:
-            work = render.work(hierarchy, view, *options.size)
+            work = render.work(hierarchy, view, width, height)
             picture = heat.picture(work, heat.shared_scale(work), hierarchy.info.volume.upper())
         else:
-            picture = Image.fromarray(render.shaded(hierarchy, view, *options.size, progress))
+            picture = Image.fromarray(render.shaded(hierarchy, view, width, height, progress))
     image.write_png(options.output, picture)
 
 

@@ -29,7 +29,7 @@ def describe_scene(scene: Scene) -> Facts:
 
 def describe_hierarchy(hierarchy: Hierarchy) -> Facts:
     """All of sobb_info but the build's time and memory, which an opened file does not have."""
-    facts = vars(hierarchy.info)
+    facts = asdict(hierarchy.info)
     of_the_build = {"topology_ms", "collapse_ms", "volume_ms", "total_ms", "peak_bytes"}
     shown = {name: value for name, value in facts.items() if name not in of_the_build}
     shown["source_hash"] = f"{facts['source_hash']:016x}"

@@ -4,20 +4,16 @@
 import os
 from collections.abc import Callable
 from ctypes import byref, c_uint64, c_void_p
-from types import SimpleNamespace
+from pickle import PickleBuffer
 from typing import Any, Literal, overload
 
 import numpy as np
 
 from sobb import interruptible, library, structs
 from sobb.dtypes import count_dtype, hit_dtype, ray_dtype
-from sobb.library import Handle, check, isa_number, name_of, number_of, unsigned
+from sobb.info import QUALITIES, STRATEGIES, TABLES, VOLUMES, HierarchyInfo, from_struct
+from sobb.library import Handle, check, isa_number, number_of, unsigned
 from sobb.triangles import TriangleArgument
-
-VOLUMES = {"aabb": 1, "sobb": 2}
-QUALITIES = {"low": 1, "medium": 2, "high": 3}
-STRATEGIES = {"k": 1, "k2": 2, "k3": 3}
-TABLES = {"spread": 1, "fitted": 2}
 
 _OPEN_MAP = 1
 _TRACE_COHERENT = 1
@@ -65,7 +61,8 @@ class Hierarchy:
     @classmethod
     def from_bytes(cls, data: Any, threads: int = 0, memory_limit: int = 0) -> "Hierarchy":
         """The same from the bytes of a file: anything with the buffer protocol; copied."""
-        content = np.frombuffer(data, np.uint8) if len(data) else np.empty(0, np.uint8)
+        view = memoryview(data)
+        content = np.frombuffer(view, np.uint8) if view.nbytes else np.empty(0, np.uint8)
         options = structs.OpenOptions(
             threads=unsigned("threads", threads),
             memory_limit=unsigned("memory_limit", memory_limit, 64),
@@ -87,19 +84,14 @@ class Hierarchy:
         """The bytes that save() writes, where they lie; the view keeps the hierarchy alive."""
         handle, data, size = self.handle, c_void_p(), c_uint64()
         check(library.core().sobb_bytes(handle, byref(data), byref(size)))
-        return memoryview(library.borrow(handle, data.value or 0, "|u1", (size.value,), None))
+        return library.borrow(handle, data.value or 0, "|u1", (size.value,), None).data
 
     @property
-    def info(self) -> SimpleNamespace:
+    def info(self) -> HierarchyInfo:
         """The members of sobb_info; volume, quality, strategy and table by name. O(nodes)."""
         struct = structs.HierarchyInfo()
         check(library.core().sobb_get_info(self.handle, byref(struct)))
-        info = structs.to_namespace(struct)
-        info.volume = name_of(VOLUMES, info.volume)
-        info.quality = name_of(QUALITIES, info.quality)
-        info.strategy = name_of(STRATEGIES, info.strategy)
-        info.table = name_of(TABLES, info.table)
-        return info
+        return from_struct(HierarchyInfo, struct)
 
     @overload
     def intersect(
@@ -109,6 +101,7 @@ class Hierarchy:
         threads: int = 0,
         counts: Literal[False] = False,
         isa: str = "best",
+        out: np.ndarray | None = None,
     ) -> np.ndarray: ...
 
     @overload
@@ -120,31 +113,39 @@ class Hierarchy:
         *,
         counts: Literal[True],
         isa: str = "best",
+        out: np.ndarray | None = None,
     ) -> tuple[np.ndarray, np.ndarray]: ...
 
-    def intersect(self, rays, coherent=False, threads=0, counts=False, isa="best"):
+    def intersect(self, rays, coherent=False, threads=0, counts=False, isa="best", out=None):
         """Closest hits.
 
         rays: ray_dtype, any shape; not copied if contiguous. coherent: neighbours in the array are
         alike, trace them as packets. threads: at most this many; 0 for all. isa: "best", "sse4" or
         "avx2". Neither changes the result. counts: return the work done for each ray as well.
+        out: where to write the hits, hit_dtype of the shape of `rays`, contiguous; a loop saves
+        the time that new memory takes.
 
         Returns hits, hit_dtype of the shape of `rays`; with `counts`, (hits, counts), the second
         of count_dtype. A ray that is not valid gets primitive INVALID.
         """
         rays = contiguous_rays(rays)
-        hits = np.empty(rays.shape, hit_dtype)
+        hits = _output(rays, hit_dtype, out)
         work = np.empty(rays.shape, count_dtype) if counts else None
         self._trace(library.core().sobb_intersect, rays, hits, work, coherent, threads, isa)
         return hits if work is None else (hits, work)
 
     def occluded(
-        self, rays: np.ndarray, coherent: bool = False, threads: int = 0, isa: str = "best"
+        self,
+        rays: np.ndarray,
+        coherent: bool = False,
+        threads: int = 0,
+        isa: str = "best",
+        out: np.ndarray | None = None,
     ) -> np.ndarray:
         """Whether each ray meets a triangle: uint8 of the shape of `rays`, 0 free, 1 occluded,
         OCCLUDED_INVALID for a ray that is not valid. Arguments as in intersect()."""
         rays = contiguous_rays(rays)
-        occluded = np.empty(rays.shape, np.uint8)
+        occluded = _output(rays, np.dtype(np.uint8), out)
         self._trace(library.core().sobb_occluded, rays, occluded, None, coherent, threads, isa)
         return occluded
 
@@ -174,6 +175,19 @@ class Hierarchy:
     def __exit__(self, *_: object) -> None:
         self.close()
 
+    def __copy__(self) -> "Hierarchy":
+        """Another reference to the same memory, closed by itself."""
+        return Hierarchy(self.handle)
+
+    def __deepcopy__(self, _memo: dict[int, Any]) -> "Hierarchy":
+        return self.__copy__()  # nothing can change what they share
+
+    def __reduce_ex__(self, protocol: Any) -> tuple[Callable[..., "Hierarchy"], tuple[Any]]:
+        """Pickled as its bytes, from protocol 5 on out of band where the pickler asks for it;
+        what is unpickled was proved safe to trace."""
+        content = PickleBuffer(self.bytes) if protocol >= 5 else bytes(self.bytes)
+        return Hierarchy.from_bytes, (content,)
+
     def __repr__(self) -> str:
         if self._handle is None:
             return "<sobb.Hierarchy, closed>"
@@ -197,7 +211,8 @@ def build(
 ) -> Hierarchy:
     """Builds a hierarchy. The same input and options give the same bytes.
 
-    triangles: a Scene; or vertices, float32 (n, 3), with faces, uint32 (m, 3).
+    triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's; or vertices,
+    float32 (n, 3), with faces, uint32 (m, 3).
     volume: "sobb" or "aabb". k: planes of the k-DOP, 32, 48 or 64. quality: "low", "medium",
     "high". strategy: "k", "k2", "k3". table: the directions, "spread" evenly or "fitted" to the
     scene's own; None for fitted where the volume is SOBB. width: children a node, 4 or 8. threads:
@@ -234,3 +249,16 @@ def contiguous_rays(rays: Any) -> np.ndarray:
     if rays.dtype != ray_dtype:
         raise TypeError(f"rays are {rays.dtype}, not sobb.ray_dtype")
     return rays if rays.flags.c_contiguous else np.ascontiguousarray(rays)
+
+
+def _output(rays: np.ndarray, dtype: np.dtype, out: np.ndarray | None) -> np.ndarray:
+    """`out`, proved fit for the results of `rays`; or a new array."""
+    if out is None:
+        return np.empty(rays.shape, dtype)
+    if out.dtype != dtype or out.shape != rays.shape:
+        raise ValueError(f"out is {out.dtype} {out.shape}, not {dtype} {rays.shape}")
+    if not (out.flags.c_contiguous and out.flags.writeable):
+        raise ValueError("out is not contiguous and writable")
+    if np.may_share_memory(out, rays):
+        raise ValueError("out overlaps the rays")
+    return out

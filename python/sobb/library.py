@@ -2,8 +2,9 @@
 """Finding and loading libsobb and libsobb_scene, and what every call into them shares.
 
 A library is looked for in the folder that the environment's SOBB_LIBRARY_PATH names, and nowhere
-else if that is set; then in build/release/lib of the checkout that this package lies in; then
-where the system looks. Loading happens at the first call that needs it.
+else if that is set; then in native/lib of this package, where a wheel has it; then in
+build/release/lib of the checkout that this package lies in; then where the system looks. Programs
+lie in bin beside that lib. Loading happens at the first call that needs it.
 """
 
 import ctypes
@@ -21,11 +22,15 @@ from sobb import structs
 from sobb.error import Error
 
 _ABI_VERSION = 0  # SOBB_ABI_VERSION, the number in the soname
-_CHECKOUT = Path(__file__).resolve().parents[2]
+_PACKAGE = Path(__file__).resolve().parent
+_FOLDERS = (_PACKAGE / "native" / "lib", _PACKAGE.parents[1] / "build" / "release" / "lib")
 
 _ISAS = {"best": 0, "sse4": 1, "avx2": 2}
 
-_CORE_SIGNATURES = {
+#: Function -> result, arguments.
+_Signatures = Mapping[str, tuple[Any, list[Any]]]
+
+_CORE_SIGNATURES: _Signatures = {
     "sobb_last_error": (c_char_p, []),
     "sobb_version": (c_uint32, []),
     "sobb_resolve_isa": (c_int, [c_int, POINTER(c_int)]),
@@ -62,7 +67,7 @@ _CORE_SIGNATURES = {
     ),
 }
 
-_SCENE_SIGNATURES = {
+_SCENE_SIGNATURES: _Signatures = {
     "sobb_scene_load": (c_int, [c_char_p, POINTER(structs.SceneOptions), POINTER(c_void_p)]),
     "sobb_scene_release": (None, [c_void_p]),
     "sobb_scene_get_info": (c_int, [c_void_p, POINTER(structs.SceneInfo)]),
@@ -85,16 +90,22 @@ def scene() -> ctypes.CDLL:
     return _load("sobb_scene", _SCENE_SIGNATURES)
 
 
-def _load(name: str, signatures: Mapping[str, tuple[Any, list[Any]]]) -> ctypes.CDLL:
-    file = f"lib{name}.so.{_ABI_VERSION}"
-    folder = os.environ.get("SOBB_LIBRARY_PATH")
-    built = _CHECKOUT / "build" / "release" / "lib" / file
-    if folder:
-        path = os.path.join(folder, file)
-    else:
-        path = str(built) if built.exists() else file
+def folder() -> Path | None:
+    """Where the libraries are looked for; None: where the system looks."""
+    named = os.environ.get("SOBB_LIBRARY_PATH")
+    if named:
+        return Path(named)
+    return next((folder for folder in _FOLDERS if (folder / _file_name("sobb")).exists()), None)
+
+
+def _file_name(library: str) -> str:
+    return f"lib{library}.so.{_ABI_VERSION}"
+
+
+def _load(name: str, signatures: _Signatures) -> ctypes.CDLL:
+    found = folder()
     try:
-        library = ctypes.CDLL(path)
+        library = ctypes.CDLL(os.path.join(found or "", _file_name(name)))
     except OSError as error:
         raise OSError(
             f"{error}. Build it (scripts/setup.sh), install it, or name its folder in "

@@ -7,12 +7,12 @@ from collections.abc import Callable
 from ctypes import byref, c_void_p
 from dataclasses import dataclass
 from functools import cached_property
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
 from sobb import interruptible, library, structs
+from sobb.info import SceneInfo, from_struct
 from sobb.library import Handle, borrow, check
 from sobb.view import View
 
@@ -98,12 +98,11 @@ class Scene:
         return borrow(self.handle, t.indices or 0, "<u4", (t.triangle_count, 3), None)
 
     @cached_property
-    def info(self) -> SimpleNamespace:
-        """The members of sobb_scene_info: vertex_count, triangle_count, degenerate_count,
-        mesh_count, view_count, bounds_min, bounds_max, default_view (1 where one was made)."""
+    def info(self) -> SceneInfo:
+        """The members of sobb_scene_info."""
         info = structs.SceneInfo()
         check(library.scene().sobb_scene_get_info(self.handle, byref(info)))
-        return structs.to_namespace(info)
+        return from_struct(SceneInfo, info)
 
     @property
     def meshes(self) -> list[Mesh]:

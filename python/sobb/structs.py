@@ -3,7 +3,6 @@
 
 import ctypes
 from ctypes import c_char_p, c_double, c_float, c_int, c_uint32, c_uint64, c_void_p
-from types import SimpleNamespace
 from typing import Any
 
 #: progress of build, open and scene options: (user, fraction) -> non-zero to cancel.
@@ -152,14 +151,3 @@ class SceneView(ctypes.Structure):
         ("up", c_float * 3),
         ("vfov_degrees", c_float),
     ]
-
-
-_UNSEEN = ("struct_size", "reserved")
-
-
-def to_namespace(struct: SizedStruct) -> SimpleNamespace:
-    """The members of an information struct that say something; arrays become tuples."""
-    values = {name: getattr(struct, name) for name, _ in struct._fields_ if name not in _UNSEEN}
-    return SimpleNamespace(
-        **{k: tuple(v) if isinstance(v, ctypes.Array) else v for k, v in values.items()}
-    )

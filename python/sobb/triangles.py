@@ -15,9 +15,11 @@ class TriangleArgument:
 
     def __init__(self, triangles: Any, faces: Any = None):
         """
-        triangles: a Scene; or vertices, (n, 3), taken as float32. Rows may lie apart (a slice of
-            wider rows); float32 rows are not copied, other types are converted.
-        faces: (m, 3) vertex indices. uint32, contiguous: not copied. None with a Scene.
+        triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's; or vertices,
+            (n, 3), taken as float32. Rows may lie apart (a slice of wider rows); float32 rows are
+            not copied, other types are converted.
+        faces: (m, 3) vertex indices. uint32, contiguous: not copied. None where `triangles` has
+            its own.
         """
         if isinstance(triangles, Scene):
             if faces is not None:
@@ -25,6 +27,10 @@ class TriangleArgument:
             self._keep: tuple[Handle | np.ndarray, ...] = (triangles.handle,)
             self.struct = triangles.triangles()
             return
+        if hasattr(triangles, "vertices") and hasattr(triangles, "faces"):
+            if faces is not None:
+                raise TypeError("a mesh has its own faces")
+            triangles, faces = triangles.vertices, triangles.faces
         if faces is None:
             raise TypeError("vertices need faces")
         vertices = _vertices(triangles)

@@ -24,10 +24,11 @@ class View:
 def default_view(bounds_min: Sequence[float], bounds_max: Sequence[float]) -> View:
     """The view of what has none, as scene.h states it: from the box's centre c with half diagonal
     h, the eye at c + 2.2 h (0.48, 0.36, 0.8), looking at c, up y, 50 degrees."""
-    centre = tuple((a + b) / 2 for a, b in zip(bounds_min, bounds_max, strict=True))
+    x, y, z = ((a + b) / 2 for a, b in zip(bounds_min, bounds_max, strict=True))
     half = math.dist(bounds_min, bounds_max) / 2 or 1.0
-    eye = tuple(c + 2.2 * half * d for c, d in zip(centre, (0.48, 0.36, 0.8), strict=True))
-    return View(eye, centre, (0.0, 1.0, 0.0), 50.0)
+    far = 2.2 * half
+    eye = (x + far * 0.48, y + far * 0.36, z + far * 0.8)
+    return View(eye, (x, y, z), (0.0, 1.0, 0.0), 50.0)
 
 
 def read_views(path: str | os.PathLike[str], stem: str) -> list[View]:

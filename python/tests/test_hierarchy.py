@@ -3,6 +3,7 @@
 
 import copy
 import gc
+import multiprocessing
 import pickle
 import threading
 
@@ -177,11 +178,84 @@ def test_closed(mesh, rays):
     assert "closed" in repr(hierarchy)
 
 
-def test_not_to_be_pickled(hierarchy):
-    with pytest.raises(TypeError):
-        pickle.dumps(hierarchy)
-    with pytest.raises(TypeError):
-        copy.deepcopy(hierarchy)
+@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+def test_pickled_as_its_bytes(hierarchy, rays, protocol):
+    other = pickle.loads(pickle.dumps(hierarchy, protocol))
+    assert other.bytes == hierarchy.bytes
+    np.testing.assert_array_equal(other.intersect(rays), hierarchy.intersect(rays))
+
+
+def test_pickled_out_of_band(hierarchy):
+    buffers = []
+    rest = pickle.dumps(hierarchy, 5, buffer_callback=buffers.append)
+    assert len(rest) < 200
+    (buffer,) = buffers
+    assert np.shares_memory(np.asarray(buffer), np.asarray(hierarchy.bytes))
+    assert pickle.loads(rest, buffers=buffers).bytes == hierarchy.bytes
+
+
+def test_a_damaged_pickle_is_refused(mesh):
+    pickled = bytearray(pickle.dumps(sobb.build(*mesh)))
+    pickled[len(pickled) // 2] ^= 1
+    with pytest.raises(sobb.Error):
+        pickle.loads(pickled)
+
+
+def test_goes_to_other_processes_and_back(hierarchy, rays):
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        back, found = pool.apply(there_and_back, (hierarchy, rays))
+    assert back.bytes == hierarchy.bytes
+    np.testing.assert_array_equal(found, hierarchy.intersect(rays))
+
+
+def there_and_back(hierarchy, rays):
+    return hierarchy, hierarchy.intersect(rays)
+
+
+def test_copies_share_memory_and_close_alone(mesh, rays):
+    hierarchy = sobb.build(*mesh)
+    for other in (copy.copy(hierarchy), copy.deepcopy([hierarchy])[0]):
+        assert np.shares_memory(np.asarray(other.bytes), np.asarray(hierarchy.bytes))
+        other.close()
+        hierarchy.intersect(rays)
+
+
+def test_results_go_where_they_are_wanted(hierarchy, rays):
+    hits, occluded = np.empty(len(rays), sobb.hit_dtype), np.empty(len(rays), np.uint8)
+    assert hierarchy.intersect(rays, out=hits) is hits
+    assert hierarchy.intersect(rays, counts=True, out=hits)[0] is hits
+    np.testing.assert_array_equal(hits, hierarchy.intersect(rays))
+    assert hierarchy.occluded(rays, out=occluded) is occluded
+    np.testing.assert_array_equal(occluded, hierarchy.occluded(rays))
+
+
+def test_wrong_places_for_results(hierarchy, rays):
+    locked = np.empty(len(rays), sobb.hit_dtype)
+    locked.flags.writeable = False
+    memory = np.zeros(len(rays) * 32, np.uint8)
+    over = memory.view(sobb.ray_dtype)
+    for given, out in (
+        (rays, np.empty(len(rays) + 1, sobb.hit_dtype)),
+        (rays, np.empty(len(rays), sobb.ray_dtype)),
+        (rays, np.empty(2 * len(rays), sobb.hit_dtype)[::2]),
+        (rays, locked),
+        (over, memory[: len(rays) * 24].view(sobb.hit_dtype)),
+    ):
+        with pytest.raises(ValueError, match="^out "):
+            hierarchy.intersect(given, out=out)
+
+
+def test_meshes_of_others(mesh, rays):
+    class Mesh:  # as trimesh has it
+        vertices = np.asarray(mesh[0], np.float64)
+        faces = np.asarray(mesh[1], np.int64)
+
+    assert sobb.build(Mesh()).bytes == sobb.build(*mesh).bytes
+    np.testing.assert_array_equal(
+        sobb.brute_force(Mesh(), rays), sobb.brute_force(mesh[0], rays, mesh[1])
+    )
+    with pytest.raises(TypeError, match="own faces"):
+        sobb.build(Mesh(), mesh[1])
 
 
 def test_progress_rises_to_the_end(mesh):

@@ -191,8 +191,9 @@ def _means(scenes: list[Group]) -> Group:
         ratios: dict[str, float] = {}
         for method in rows:
             found = [s.rows[method][i].ratio if method in s.rows else None for s in scenes]
-            if all(found):  # a mean over fewer scenes would not compare
-                ratios[method] = geometric_mean(found)
+            known = [ratio for ratio in found if ratio]
+            if len(known) == len(found):  # a mean over fewer scenes would not compare
+                ratios[method] = geometric_mean(known)
         best = f"{column.best(ratios.values()):.2f}" if ratios else ""
         for method, cells in rows.items():
             ratio = ratios.get(method)

@@ -67,9 +67,9 @@ def _ratios(found: Sequence[Figure]) -> Ratios:
 
 def _turned(found: Sequence[Figure]) -> Least | None:
     unturned = {(f.scene, f.quality): f for f in found}
-    pairs = {f: unturned.get((split_turn(f.scene)[0], f.quality)) for f in found}
-    turned = [f for f, base in pairs.items() if base is not None and base is not f]
-    return _least(turned, lambda f: f.sobb / pairs[f].sobb) if turned else None
+    bases = {f: unturned.get((split_turn(f.scene)[0], f.quality)) for f in found}
+    pairs = {f: base for f, base in bases.items() if base is not None and base is not f}
+    return _least(pairs, lambda f: f.sobb / pairs[f].sobb) if pairs else None
 
 
 def _least(found: Iterable[Figure], ratio: Callable[[Figure], float]) -> Least:

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the Python package carries (python/pyproject.toml), below sobb/native: the libraries and all
+# that they load in lib, the programs in bin. Included where scikit-build-core runs CMake.
+
+find_package(TBB CONFIG REQUIRED)
+
+set(wheel_libraries sobb sobb_scene)
+set(wheel_programs sobb_bench sobb_bench_volumes)
+
+# A wheel holds no symbolic links: each library is one file, named as programs ask for it.
+set_target_properties(${wheel_libraries} PROPERTIES VERSION ${SOBB_ABI_VERSION})
+set_target_properties(${wheel_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+# The old kind of path holds for what a library loads in turn, too: Embree finds TBB beside itself
+# though nothing in it says so.
+foreach(target IN LISTS wheel_libraries wheel_programs)
+  target_link_options(${target} PRIVATE -Wl,--disable-new-dtags)
+endforeach()
+
+install(TARGETS ${wheel_libraries} LIBRARY DESTINATION lib NAMELINK_SKIP COMPONENT wheel)
+install(TARGETS ${wheel_programs} RUNTIME DESTINATION bin COMPONENT wheel)
+
+# TBB asks for its allocator by name, as it runs.
+install(FILES $<TARGET_FILE:TBB::tbbmalloc> DESTINATION lib
+  RENAME $<TARGET_SONAME_FILE_NAME:TBB::tbbmalloc> COMPONENT wheel)
+
+# The C and C++ run time is the system's.
+install(CODE [[
+  file(GET_RUNTIME_DEPENDENCIES
+    RESOLVED_DEPENDENCIES_VAR loaded
+    LIBRARIES $<TARGET_FILE:sobb> $<TARGET_FILE:sobb_scene>
+    EXECUTABLES $<TARGET_FILE:sobb_bench> $<TARGET_FILE:sobb_bench_volumes>
+    PRE_EXCLUDE_REGEXES "^libsobb" "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
+  foreach(library IN LISTS loaded)
+    get_filename_component(name "${library}" NAME)
+    file(REAL_PATH "${library}" file)
+    file(COPY_FILE "${file}" "${CMAKE_INSTALL_PREFIX}/lib/${name}")
+  endforeach()
+]] COMPONENT wheel)

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the library says of hierarchies and scenes: sobb_info and sobb_scene_info."""
+
+import ctypes
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
+
+from sobb import structs
+from sobb.library import name_of
+
+VOLUMES = {"aabb": 1, "sobb": 2}
+QUALITIES = {"low": 1, "medium": 2, "high": 3}
+STRATEGIES = {"k": 1, "k2": 2, "k3": 3}
+TABLES = {"spread": 1, "fitted": 2}
+
+_NAMES = {"volume": VOLUMES, "quality": QUALITIES, "strategy": STRATEGIES, "table": TABLES}
+
+Corner = tuple[float, float, float]
+Info = TypeVar("Info")
+
+
+@dataclass(frozen=True)
+class HierarchyInfo:
+    """Figures of a hierarchy. Areas are sums over that of the input's box. The last five are of
+    the build, and zero for a hierarchy that was opened."""
+
+    format_version: int
+    volume: str
+    k: int  # planes of the direction table; 6 for the AABB
+    quality: str
+    strategy: str
+    table: str
+    width: int  # children a node, at most
+    depth: int
+    triangles: int  # of the input
+    degenerate: int  # of those, the ones without area
+    references: int  # in leaves; more than triangles after spatial splits
+    nodes: int
+    leaves: int
+    blocks: int  # of four triangles
+    axes_nodes: int  # nodes whose shared basis is the axes, or a fitted table's frame
+    shared_nodes: int  # with another basis shared by all children
+    own_nodes: int  # with a basis for each child
+    bytes: int  # of the file, and in memory
+    node_bytes: int
+    triangle_bytes: int
+    source_hash: int
+    bounds_min: Corner
+    bounds_max: Corner
+    inner_area: float
+    leaf_area: float
+    topology_ms: float
+    collapse_ms: float
+    volume_ms: float
+    total_ms: float
+    peak_bytes: int
+
+
+@dataclass(frozen=True)
+class SceneInfo:
+    """Figures of a scene; the bounds are of the vertices that triangles use."""
+
+    default_view: int  # 1 where the file had no view and one was made
+    vertex_count: int
+    triangle_count: int
+    degenerate_count: int
+    mesh_count: int
+    view_count: int
+    bounds_min: Corner
+    bounds_max: Corner
+
+
+def from_struct(kind: type[Info], struct: structs.SizedStruct) -> Info:
+    """The members that `kind` has: arrays as tuples, enumerations by name."""
+    members = [field.name for field in fields(kind)]  # type: ignore[arg-type]
+    return kind(**{name: _value(name, getattr(struct, name)) for name in members})
+
+
+def _value(name: str, value: Any) -> Any:
+    if isinstance(value, ctypes.Array):
+        return tuple(value)
+    return name_of(_NAMES[name], value) if name in _NAMES else value

@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Python package as a user does, into a new virtual environment, and proves that it
+# works with NumPy alone, on the libraries and programs that it brought; and that the source
+# distribution has every source.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/packages.sh
+use_ccache
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+python3 -m venv "$folder/venv"
+# With the flags of the release build the compilers' cache has all objects.
+"$folder/venv/bin/pip" install --quiet --disable-pip-version-check \
+  --config-settings=cmake.define.SOBB_WERROR=ON ./python build
+"$folder/venv/bin/python" -m build --sdist --outdir "$folder" python >/dev/null
+
+git ls-files bench capi cmake lib CMakeLists.txt python/sobb | sed 's|^python/|/|' | sort \
+  >"$folder/sources"
+tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/native/||' | sort \
+  >"$folder/shipped"
+missing=$(comm -23 "$folder/sources" "$folder/shipped")
+[[ -z $missing ]] || { echo "not in the source distribution: $missing" >&2; exit 1; }
+
+cd "$folder" # where no checkout is found
+venv/bin/python - <<'PYTHON'
+import importlib.metadata
+from pathlib import Path
+
+import numpy as np
+
+import sobb
+from sobb.bench import find_program
+
+assert importlib.metadata.version("sobb") == sobb.version()
+with sobb.Scene.load("builtin:city:3000") as scene:
+    hierarchy = sobb.build(scene, quality="low")  # Embree's builder
+rays = np.zeros(100, sobb.ray_dtype)
+rays["origin"][:, 1] = 100
+rays["direction"] = (0, -1, 0)
+rays["tmax"] = np.inf
+assert (hierarchy.intersect(rays)["primitive"] < sobb.INVALID).all()
+
+native = Path(sobb.__file__).parent / "native"
+carried = {file.name for file in (native / "lib").iterdir()}
+lines = Path("/proc/self/maps").read_text().splitlines()
+loaded = {Path(line.split()[-1]) for line in lines if ".so" in line}
+found = {file for file in loaded if file.name in carried}
+assert {file.parent for file in found} == {native / "lib"}, sorted(found)
+names = sorted(file.name.split(".so")[0] for file in found)
+for start in ("libsobb_scene", "libembree", "libtbbmalloc", "libhwy", "libxxhash"):
+    assert any(name.startswith(start) for name in names), names
+assert find_program("sobb_bench").parent == native / "bin"
+print("loaded from the wheel:", *names)
+PYTHON
+venv/bin/python -m sobb info builtin:city:3000 >/dev/null
+venv/bin/python -m sobb build builtin:city:3000 -o city.sobb
+venv/bin/python -m sobb render city.sobb -o city.png 2>&1 | grep -F 'sobb[commands]'
+"$(venv/bin/python -c 'from sobb.bench import find_program as f; print(f("sobb_bench_volumes"))')" \
+  --help >/dev/null
