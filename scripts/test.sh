@@ -70,6 +70,11 @@ ruff() {
     .venv/bin/ruff format --check --config python/pyproject.toml scripts
 }
 
+# The binding, whose types others build on; the commands' packages are not held to it.
+types() {
+  (cd python && ../.venv/bin/mypy sobb/*.py)
+}
+
 check "release build, g++" scripts/setup.sh --tests
 use_ccache
 check "C++ tests" ctest --preset release -j "$jobs"
@@ -77,6 +82,7 @@ check "Python tests" .venv/bin/python -m pytest -q python/tests
 if [[ $quick == no ]]; then
   check "clang-format" format
   check "ruff" ruff
+  check "mypy" types
   check "wheel" scripts/wheel_check.sh
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
