@@ -16,12 +16,17 @@ python3 -m venv "$folder/venv"
   --config-settings=cmake.define.SOBB_WERROR=ON ./python build
 "$folder/venv/bin/python" -m build --sdist --outdir "$folder" python >/dev/null
 
-git ls-files bench capi cmake lib CMakeLists.txt python/sobb | sed 's|^python/|/|' | sort \
+git ls-files bench capi cmake lib CMakeLists.txt python | sed 's|^python/|/|' | sort \
   >"$folder/sources"
 tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/native/||' | sort \
   >"$folder/shipped"
 missing=$(comm -23 "$folder/sources" "$folder/shipped")
 [[ -z $missing ]] || { echo "not in the source distribution: $missing" >&2; exit 1; }
+
+package=$("$folder/venv/bin/python" -c 'import sobb; print(sobb.__path__[0])')
+git ls-files python/sobb | while read -r file; do
+  [[ -f $package/${file#python/sobb/} ]] || { echo "not in the wheel: $file" >&2; exit 1; }
+done
 
 cd "$folder" # where no checkout is found
 venv/bin/python - <<'PYTHON'
@@ -56,6 +61,11 @@ print("loaded from the wheel:", *names)
 PYTHON
 venv/bin/python -m sobb info builtin:city:3000 >/dev/null
 venv/bin/python -m sobb build builtin:city:3000 -o city.sobb
-venv/bin/python -m sobb render city.sobb -o city.png 2>&1 | grep -F 'sobb[commands]'
-"$(venv/bin/python -c 'from sobb.bench import find_program as f; print(f("sobb_bench_volumes"))')" \
-  --help >/dev/null
+if venv/bin/python -m sobb render city.sobb -o city.png 2>message; then
+  echo "a picture without Pillow?" >&2
+  exit 1
+fi
+grep -F 'sobb[commands]' message
+for program in "$package"/native/bin/*; do
+  "$program" --help >/dev/null
+done
