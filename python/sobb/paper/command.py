@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from sobb import atomic, bench, scenes, sweep
+from sobb import atomic, bench, each_scene, scenes
 from sobb.paper import console, csv_table, latex, markdown
 from sobb.paper.table import LAYOUTS, STRATEGY, Measured, groups
 
@@ -55,7 +55,7 @@ def run(
         if len(measured) > 1:
             _show(measured)
 
-    sweep.run(sources, measure, add, means)
+    each_scene.run(sources, measure, add, means)
     print(f"{out}: paper.md, paper.csv, paper.tex, paper.png, paper.svg")
 
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 
-from sobb import atomic, bench, scenes, sweep
+from sobb import atomic, bench, each_scene, scenes
 from sobb.peers import console
 from sobb.peers.figures import Figure, figures, row_filter
 from sobb.peers.summary import lines
@@ -62,4 +62,4 @@ def run(
         if count > 1:
             console.show_summary(lines(found), count)
 
-    sweep.run(sources, measure, add, sum_up)
+    each_scene.run(sources, measure, add, sum_up)
