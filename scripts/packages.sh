@@ -8,7 +8,7 @@ build_packages="g++ cmake ninja-build ccache pkg-config
   libbenchmark-dev libcli11-dev python3-venv"
 
 # What the tests and checks need besides.
-test_packages="git libgtest-dev libopenmesh-dev
+test_packages="git libgtest-dev libopenmesh-dev chromium
   clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
 
 # What scripts/coverage.sh needs besides.

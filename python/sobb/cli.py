@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: build, info, validate, render, demo, paper, peers.
+"""The command line: build, info, validate, render, demo, paper, peers, report.
 
 Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage.
 """
@@ -128,6 +128,15 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--size", type=_at_least_one, default=1024, help="primary rays: NxN")
     command.add_argument("--repetitions", type=_at_least_one, default=7)
     command.add_argument("--json", metavar="FILE", help="the figures for machines")
+
+    command = _add(commands, "report", _report, "the results of a sweep as one page to look at")
+    command.add_argument("results", metavar="RESULTS", help="the .duckdb file of a sweep")
+    command.add_argument("--out", default="out/report", metavar="DIR", help="for index.html")
+    command.add_argument("--no-pictures", action="store_true", help="draw no scenes: seconds")
+    command.add_argument("--size", type=_size, default=(960, 540), metavar="WxH", help="960x540")
+    command.add_argument(
+        "--cameras", metavar="FILE", help="a JSON file of views; else that of the sweep"
+    )
     return parser
 
 
@@ -253,3 +262,12 @@ def _peers(options: argparse.Namespace) -> None:
         options.repetitions,
         Path(options.json) if options.json else None,
     )
+
+
+def _report(options: argparse.Namespace) -> None:
+    try:
+        from sobb.report import command
+    except ImportError as error:
+        raise OSError(f"reports need more: pip install 'sobb[report]' ({error})") from None
+    out = Path(options.out)
+    command.run(options.results, out, not options.no_pictures, options.size, options.cameras)

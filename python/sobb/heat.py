@@ -51,14 +51,18 @@ def shared_scale(*maps: np.ndarray) -> int:
     return max(4, math.ceil(much / 4) * 4)
 
 
-def picture(work: np.ndarray, scale: int, title: str) -> Image.Image:
-    """A map of work (height, width) with its legend: colours from 0 to `scale`, `title` below."""
-    height, width = work.shape
-    colours = colour_map()
+def coloured(work: np.ndarray, scale: int) -> np.ndarray:
+    """The map alone: colours from 0 to `scale`, uint8 (height, width, 3)."""
     index = np.minimum(work.astype(np.float64) * 255 / scale + 0.5, 255).astype(np.uint8)
+    return colour_map()[index]
+
+
+def picture(work: np.ndarray, scale: int, title: str) -> Image.Image:
+    """A map of work (height, width) with its legend, `title` below."""
+    height, width = work.shape
     result = Image.new("RGB", (width + _LEGEND, height + 2 * _TEXT), _PAPER)
-    result.paste(Image.fromarray(colours[index]), (0, 0))
-    _draw_legend(result, width, height, colours, scale)
+    result.paste(Image.fromarray(coloured(work, scale)), (0, 0))
+    _draw_legend(result, width, height, colour_map(), scale)
     caption = f"{title}: {work.mean():.1f} volumes and triangles a ray, on average"
     ImageDraw.Draw(result).text(
         (_MARGIN, height + _TEXT), caption, _INK, ImageFont.load_default(_TEXT), anchor="lm"

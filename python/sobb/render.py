@@ -34,13 +34,19 @@ _ZENITH = np.array([0.24, 0.35, 0.5], np.float32)
 
 
 def shaded(
-    hierarchy: Hierarchy, view: View, width: int, height: int, progress: Progress = lambda _: None
+    hierarchy: Hierarchy,
+    view: View,
+    width: int,
+    height: int,
+    progress: Progress = lambda _: None,
+    colours: np.ndarray | None = None,
 ) -> np.ndarray:
     """A picture as sRGB bytes, uint8 (height, width, 3): clay under a sky, with ambient occlusion.
 
-    Takes 9 samples a pixel. `progress` hears the fraction done, 0 to 1.
+    Takes 9 samples a pixel. `progress` hears the fraction done, 0 to 1. `colours`: of the triangles
+    by primitive instead of clay's, linear light, float32 (m, 3).
     """
-    shader = _Shader(hierarchy, view)
+    shader = _Shader(hierarchy, view, colours)
     across, down = width * _SAMPLES, height * _SAMPLES
     picture = np.empty((height, width, 3), np.float32)
     for top in range(0, down, _BAND):
@@ -76,8 +82,9 @@ def work(hierarchy: Hierarchy, view: View, width: int, height: int) -> np.ndarra
 
 
 class _Shader:
-    def __init__(self, hierarchy: Hierarchy, view: View):
+    def __init__(self, hierarchy: Hierarchy, view: View, colours: np.ndarray | None):
         self._hierarchy = hierarchy
+        self._colours = colours
         self._surface = Surface(hierarchy)
         info = hierarchy.info
         diagonal = np.linalg.norm(np.subtract(info.bounds_max, info.bounds_min))
@@ -104,14 +111,16 @@ class _Shader:
         colours = np.empty((len(rays), 3), np.float32)
         colours[~hit] = self._background(rays["direction"][~hit])
         points = self._surface.points(rays, hits)
-        colours[hit] = self._shade(points, rays["direction"][hit], uniform[hit])
+        light = self._light(points, rays["direction"][hit], uniform[hit])
+        own = _CLAY if self._colours is None else self._colours[hits["primitive"][hit]]
+        colours[hit] = own * light
         return colours
 
     def _background(self, directions: np.ndarray) -> np.ndarray:
         height = np.clip(directions @ self._up * 0.8 + 0.5, 0, 1)[:, None]
         return _HORIZON + (_ZENITH - _HORIZON) * height
 
-    def _shade(
+    def _light(
         self, points: SurfacePoints, directions: np.ndarray, uniform: np.ndarray
     ) -> np.ndarray:
         open_sky = _FLOOR + (1 - _FLOOR) * self._openness(points, uniform)[:, None]
@@ -119,7 +128,7 @@ class _Shader:
         ambient = (_GROUND + (_SKY - _GROUND) * upward) * open_sky
         key = self._key_light(points)[:, None] * _KEY
         facing = -np.einsum("ij,ij->i", points.normal, directions)[:, None]
-        return _CLAY * (0.5 * ambient + 0.9 * key + 0.1 * facing * open_sky)
+        return 0.5 * ambient + 0.9 * key + 0.1 * facing * open_sky
 
     def _openness(self, points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
         """The share of ambient rays that leave each point without meeting anything in reach."""

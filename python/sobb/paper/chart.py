@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
+from sobb.palette import BLUE, GREEN, ORANGE, PURPLE
 from sobb.paper.table import COLUMNS, METHODS, Group, Measured, groups
 
 _TITLES = {"binary": "Binary nodes", "wide": "Nodes of 8 children"}
@@ -20,7 +21,7 @@ _TICKS = [2.0**i * m for i in range(-6, 7) for m in (1.0, 1.5)]
 
 @dataclass(frozen=True)
 class _Mark:
-    """How a method is drawn. Colours: M. Okabe and K. Ito's, which the colour-blind tell apart."""
+    """How a method is drawn."""
 
     colour: str
     shape: str
@@ -28,18 +29,17 @@ class _Mark:
     lane: float  # from the middle of its scene's row, in rows, so that few marks cover others
 
 
-_ORANGE, _GREEN, _BLUE, _PURPLE = "#d55e00", "#009e73", "#0072b2", "#aa4499"
 _MARKS = {
-    "14-dop": _Mark(_ORANGE, "v", True, -0.27),
-    "obb": _Mark(_GREEN, "s", True, -0.27),
-    "sobb32d": _Mark(_BLUE, "<", False, 0.0),
-    "sobb32i": _Mark(_BLUE, "<", True, 0.27),
-    "sobb48d": _Mark(_BLUE, "D", False, 0.0),
-    "sobb48i": _Mark(_BLUE, "D", True, 0.27),
-    "sobb64d": _Mark(_BLUE, "o", False, 0.0),
-    "sobb64i": _Mark(_BLUE, "o", True, 0.27),
-    "sobb128": _Mark(_PURPLE, "o", False, 0.0),
-    "sobb256": _Mark(_PURPLE, "s", False, 0.0),
+    "14-dop": _Mark(ORANGE.light, "v", True, -0.27),
+    "obb": _Mark(GREEN.light, "s", True, -0.27),
+    "sobb32d": _Mark(BLUE.light, "<", False, 0.0),
+    "sobb32i": _Mark(BLUE.light, "<", True, 0.27),
+    "sobb48d": _Mark(BLUE.light, "D", False, 0.0),
+    "sobb48i": _Mark(BLUE.light, "D", True, 0.27),
+    "sobb64d": _Mark(BLUE.light, "o", False, 0.0),
+    "sobb64i": _Mark(BLUE.light, "o", True, 0.27),
+    "sobb128": _Mark(PURPLE.light, "o", False, 0.0),
+    "sobb256": _Mark(PURPLE.light, "s", False, 0.0),
 }
 
 
