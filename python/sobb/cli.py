@@ -265,9 +265,7 @@ def _peers(options: argparse.Namespace) -> None:
 
 
 def _report(options: argparse.Namespace) -> None:
-    try:
-        from sobb.report import command
-    except ImportError as error:
-        raise OSError(f"reports need more: pip install 'sobb[report]' ({error})") from None
+    from sobb.report import command
+
     out = Path(options.out)
     command.run(options.results, out, not options.no_pictures, options.size, options.cameras)
