@@ -59,15 +59,14 @@ for (const slider of document.querySelectorAll(".compare input")) {
 
 // Charts: their colours are the page's variables, so they follow the theme, and print, by CSS.
 const text = { labelColor: "var(--muted)", titleColor: "var(--ink)", labelFontSize: 12, titleFontSize: 12, titleFontWeight: 500 };
-const narrow = innerWidth < 640;
-const config = {
+const config = (width) => ({
   background: "transparent",
   font: getComputedStyle(document.body).fontFamily,
   view: { stroke: "transparent" },
   axis: { ...text, gridColor: "var(--line)", domainColor: "var(--line)", tickColor: "var(--line)", labelFlush: false },
-  axisY: { labelLimit: narrow ? 110 : 220 },
-  legend: { ...text, orient: "top", symbolSize: 90, symbolOpacity: 1, columns: narrow ? 2 : 6, labelLimit: 220, layout: { top: { bounds: "full" } } },
-};
+  axisY: { labelLimit: width < 560 ? 110 : 220 },
+  legend: { ...text, orient: "top", symbolSize: 90, symbolOpacity: 1, columns: Math.max(2, Math.floor(width / 150)), labelLimit: 220, layout: { top: { bounds: "full" } } },
+});
 
 const form = document.getElementById("choices");
 const choice = () => Object.fromEntries(new FormData(form));
@@ -81,7 +80,7 @@ async function drawCharts() {
   const draw = async (box) => {
     const own = specs[box.dataset.spec];
     const spec = { ...own, params, datasets: { ...own.datasets, ...datasets } };
-    const { view } = await vegaEmbed(box, spec, { renderer: "svg", actions: false, config });
+    const { view } = await vegaEmbed(box, spec, { renderer: "svg", actions: false, config: config(box.clientWidth) });
     return view;
   };
   return Promise.all([...document.querySelectorAll(".chart")].map(draw));
