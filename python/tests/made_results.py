@@ -1,26 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of results made up for tests of the report."""
+"""Files of results for tests of the report: of any methods and scenes, one with a hostile name."""
 
 import random
 
-import duckdb
+from sobb.sweep.store import Store
 
 HOSTILE = "<img src=x onerror=alert(1)>"
-_TABLES = """
-CREATE TABLE meta(key VARCHAR PRIMARY KEY, value VARCHAR);
-CREATE TABLE runs(run_id INTEGER PRIMARY KEY, started TIMESTAMP, finished TIMESTAMP, host VARCHAR,
-    processor VARCHAR, cores INTEGER, sobb_version VARCHAR, embree_version VARCHAR,
-    git_commit VARCHAR, python_version VARCHAR, spec VARCHAR);
-CREATE TABLE cases(case_id VARCHAR PRIMARY KEY, run_id INTEGER, scene VARCHAR, name VARCHAR,
-    triangles BIGINT, subdivision INTEGER, view INTEGER, method VARCHAR, k INTEGER,
-    strategy VARCHAR, table_kind VARCHAR, quality VARCHAR, width INTEGER, isa VARCHAR,
-    threads INTEGER, status VARCHAR, error VARCHAR, seconds DOUBLE, host VARCHAR,
-    finished TIMESTAMP);
-CREATE TABLE samples(case_id VARCHAR, rays VARCHAR, call VARCHAR, metric VARCHAR,
-    repetition INTEGER, value DOUBLE);
-INSERT INTO meta VALUES ('schema', '1');
-"""
-
 # Method -> its options k, strategy, table_kind; how many times AABBs' speed; build time likewise.
 METHODS = {
     "aabb": (None, None, None, 1.0, 1.0),
@@ -63,8 +48,8 @@ def write(path, methods=METHODS, scenes=SCENES, failures=FAILURES):
     for status, error in failures.items():
         what = (status, 1, "builtin:wool:9", "wool", None, 1, 0, "sobb", 64, "k2", "fitted")
         cases.append((*what, "medium", 8, "avx2", 1, status, error, 60.0, "host", None))
-    with duckdb.connect(str(path)) as database:
-        database.execute(_TABLES)
+    with Store(path) as store:
+        database = store.connection
         database.execute(
             "INSERT INTO runs VALUES (1, '2026-01-02 03:04:05', '2026-01-02 04:00:00', 'host', "
             "'A & B', 2, '0.1.0', '3.13.5', 'abc1234', '3.11.2', '{\"scenes\": []}')"

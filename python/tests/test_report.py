@@ -185,8 +185,8 @@ def test_bad_files_are_named(cli, tmp_path):
         pass
     for file, cause in (
         (tmp_path / "missing.duckdb", "no such file"),
-        (text, "no results of a sweep"),
-        (bare, "no results of a sweep"),
+        (text, "not a valid DuckDB database"),
+        (bare, "no file of results"),
         (other, "version 99"),
     ):
         done = cli("report", file, "--out", tmp_path / "out")

@@ -10,7 +10,9 @@ from typing import Any, NamedTuple
 
 import duckdb
 
-SCHEMA = "1"
+from sobb.sweep.records import DONE
+from sobb.sweep.store import Store
+
 _CASES = "name, scene, subdivision, view, case_id"  # their order
 
 
@@ -89,11 +91,11 @@ class Results:
 
     @property
     def done(self) -> list[Case]:
-        return [case for case in self.cases if case.status == "done"]
+        return [case for case in self.cases if case.status == DONE]
 
     @property
     def failed(self) -> list[Case]:
-        return [case for case in self.cases if case.status != "done"]
+        return [case for case in self.cases if case.status != DONE]
 
     def rays(self) -> list[str]:
         """The kinds of rays measured, in the order of RAYS."""
@@ -119,37 +121,26 @@ CALLS = {"array": "arrays", "packet": "packets of 16", "single": "one ray a call
 
 def read(path: str | os.PathLike[str]) -> Results:
     """Reads a file of results. Raises OSError or ValueError naming the file and the cause."""
-    if not Path(path).is_file():
-        raise OSError(f"{path}: no such file")
-    try:
-        with duckdb.connect(os.fspath(path), read_only=True) as database:
-            _check_schema(database, path)
-            figures = _figures(database)
-            cases = [
-                Case(*row, figures.get(row[0], {}))
-                for row in _rows(database, "cases", Case, _CASES)
-            ]
-            return Results([Run(*row) for row in _rows(database, "runs", Run, "run_id")], cases)
-    except duckdb.Error as error:
-        raise ValueError(f"{path}: no results of a sweep: {error}") from None
-
-
-def _check_schema(database: duckdb.DuckDBPyConnection, path: str | os.PathLike[str]) -> None:
-    found = database.sql("SELECT value FROM meta WHERE key = 'schema'").fetchall()
-    if found != [(SCHEMA,)]:
-        version = f"version {found[0][0]}" if found else "no version"
-        raise ValueError(f"{path}: results of {version}, this program reads version {SCHEMA}")
+    with Store(Path(path), read_only=True) as store:
+        try:
+            figures = _figures(store.connection)
+            rows = _rows(store.connection, "cases", Case, _CASES)
+            cases = [Case(*row, figures.get(row[0], {})) for row in rows]
+            runs = [Run(*row) for row in _rows(store.connection, "runs", Run, "run_id")]
+        except duckdb.Error as error:
+            raise OSError(f"{path}: {str(error).splitlines()[0]}") from None
+    return Results(runs, cases)
 
 
 def _rows(
     database: duckdb.DuckDBPyConnection, table: str, kind: type, order: str
 ) -> list[tuple[Any, ...]]:
-    columns = [f.name for f in fields(kind) if f.name != "figures"]
-    return database.sql(f"SELECT {', '.join(columns)} FROM {table} ORDER BY {order}").fetchall()
+    columns = ", ".join(f.name for f in fields(kind) if f.name != "figures")
+    return database.execute(f"SELECT {columns} FROM {table} ORDER BY {order}").fetchall()
 
 
 def _figures(database: duckdb.DuckDBPyConnection) -> dict[str, dict[Key, Figure]]:
-    rows = database.sql(
+    rows = database.execute(
         """
         SELECT case_id, metric, rays, call, median(value),
                stddev_samp(value) / nullif(abs(avg(value)), 0), count(*)

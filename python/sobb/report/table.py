@@ -17,7 +17,7 @@ _OF_BUILD = (
     Column("build_ms", "Build [ms]"),
     Column(_OVERHEAD, "Overhead [ms]", base="obb"),
     Column("area_inner", "Area inner nodes", timed=False),
-    Column("area_leaf", "Area leaf nodes", timed=False),
+    Column("area_leaves", "Area leaf nodes", timed=False),
     Column("bytes_per_triangle", "Bytes a triangle", timed=False),
 )
 

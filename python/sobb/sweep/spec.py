@@ -4,11 +4,12 @@
 import difflib
 import json
 import os
-import tomllib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
+
+import tomllib
 
 from sobb.hierarchy import QUALITIES, STRATEGIES, TABLES
 
