@@ -86,6 +86,25 @@ def test_ratios_are_to_the_same_options(read):
     assert method.bases([high, sobb, aabb])[sobb.case_id] is aabb
 
 
+def test_the_best_instruction_set_compares_with_any(read):
+    cases = read(scenes=("builtin:city:9",), failures={}).done
+    aabb, embree = (next(c for c in cases if c.method == name) for name in ("aabb", "embree"))
+    best = dataclasses.replace(embree, isa="best")
+    assert method.bases([aabb, best])[best.case_id] is aabb
+    assert {variant.title for variant in method.variants([aabb, best]).values()} == {
+        "AABB",
+        "Embree",
+    }
+
+
+def test_volumes_that_share_a_traversal_are_told(read):
+    obb = {**made_results.METHODS, "obb": (None, None, None, 1.2, 1.1)}
+    found = read(methods=obb)
+    assert any("share one hierarchy" in note for note in facts.lead(found, [])["notes"])
+    without = results.Results(found.runs, [c for c in found.cases if c.method != "obb"])
+    assert facts.lead(without, [])["notes"] == []
+
+
 def test_front_is_what_nothing_beats(rng):
     for _ in range(50):
         count = int(rng.integers(1, 8))

@@ -7,6 +7,7 @@ from datetime import datetime
 from statistics import geometric_mean
 from typing import Any
 
+from sobb.report.method import HIERARCHIES
 from sobb.report.points import Point
 from sobb.report.results import CALLS, RAYS, Results, Run
 
@@ -82,6 +83,12 @@ def _notes(results: Results) -> list[str]:
         notes.append("Only one method was measured, so there is nothing to compare it with.")
     elif methods and "aabb" not in methods:
         notes.append("AABBs were not measured, so there are no ratios.")
+    if methods - set(HIERARCHIES):
+        notes.append(
+            "AABB, SOBB and Embree are whole hierarchies, each with its own kernels. The other "
+            "volumes share one hierarchy and one traversal: their ratios to the AABB are of both, "
+            "volume and traversal; among each other they compare the volumes alone."
+        )
     unfinished = [run for run in results.runs if run.finished is None]
     if unfinished:
         notes.append(

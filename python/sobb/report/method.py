@@ -20,6 +20,9 @@ _TITLES = {**table.METHODS, "sobb": "SOBB", "embree": "Embree"}
 _ORDER = ("aabb", "14-dop", "obb", "sobb", *(m for m in table.METHODS if "sobb" in m), "embree")
 
 BASE = "aabb"
+#: The library's own hierarchies and Embree's. Other volumes are measured in a hierarchy and by a
+#: traversal that they share.
+HIERARCHIES = (BASE, "sobb", "embree")
 
 # Options that make one method several: within a method, or wherever they differ at all.
 _OF_METHOD = ("k", "strategy", "table_kind")
@@ -74,20 +77,26 @@ def place(case: Case) -> tuple[str, int, int]:
     return case.scene, case.subdivision, case.view
 
 
+def _option(case: Case, name: str) -> str | int | None:
+    """An option's value; the best instruction set is whichever the machine has."""
+    value = getattr(case, name)
+    return None if value == "best" else value
+
+
 def _differ(case: Case, other: Case) -> bool:
-    pairs = ((getattr(case, option), getattr(other, option)) for option in _OF_ALL)
+    pairs = ((_option(case, name), _option(other, name)) for name in _OF_ALL)
     return any(a is not None and b is not None and a != b for a, b in pairs)
 
 
 def _values(cases: Iterable[Case], option: str) -> set:
-    return {getattr(case, option) for case in cases} - {None}
+    return {_option(case, option) for case in cases} - {None}
 
 
 def _variant(case: Case, varying: dict[str, set]) -> Variant:
     options = (
-        _spelt(option, getattr(case, option))
+        _spelt(option, value)
         for option, values in varying.items()
-        if len(values) > 1 and getattr(case, option) is not None
+        if len(values) > 1 and (value := _option(case, option)) is not None
     )
     place = _ORDER.index(case.method) if case.method in _ORDER else len(_ORDER)
     return Variant(place, case.method, tuple(options))

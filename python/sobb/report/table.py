@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from statistics import geometric_mean
 
 from sobb.paper.table import Cell, Column, number
-from sobb.report.method import BASE, Variant, bases, place, variants
+from sobb.report.method import BASE, HIERARCHIES, Variant, bases, place, variants
 from sobb.report.results import Case, Key, Results
 from sobb.report.scene import titles
 
-# The overhead is the build's beyond that of the AABBs.
+# The overhead is the build's beyond that of the AABBs, or what fitting other volumes takes.
 _OVERHEAD = "overhead_ms"
 _OF_BUILD = (
     Column("build_ms", "Build [ms]"),
@@ -77,6 +77,8 @@ def _value(case: Case, base: Case | None, column: Column, call: str) -> float | 
     if column.key != _OVERHEAD:
         of_build = column in _OF_BUILD
         return case.value(Key(column.key) if of_build else Key("mrays_s", column.key, call))
+    if case.method not in HIERARCHIES:
+        return case.value(Key("fit_ms"))
     build = case.value(Key("build_ms"))
     own = base.value(Key("build_ms")) if base is not None else None
     ours = case.method not in (BASE, "embree")
