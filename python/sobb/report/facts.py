@@ -15,7 +15,7 @@ from sobb.report.results import CALLS, RAYS, Results, Run
 def lead(results: Results, found: Sequence[Point]) -> dict[str, Any]:
     """Title, summary, tiles and facts at the head of the page."""
     cases = results.cases
-    scenes = {(case.scene, case.subdivision) for case in cases}
+    scenes = {case.scene for case in cases}
     methods = {case.method for case in cases}
     count = f"{len(results.done):,} of {len(cases):,} cases"
     summary = (
@@ -113,7 +113,7 @@ def _facts(run: Run) -> list[tuple[str, str]]:
         "Processor": f"{run.processor}{cores}" if run.processor else None,
         "Machine": run.host,
         "sobb": run.sobb_version,
-        "Commit": run.git_commit,
+        "Commit": (run.git_commit or "")[:12],
         "Embree": run.embree_version,
         "Python": run.python_version,
     }
