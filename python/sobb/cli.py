@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: build, info, validate, render, demo, paper, peers, report.
+"""The command line: build, info, validate, render, demo, paper, peers, report, sweep, compare.
 
-Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage.
+Exit codes: 0 done, 1 failed (the cause is on stderr), 2 wrong usage,
+3 something got slower (compare).
 """
 
 import argparse
@@ -18,6 +19,7 @@ from sobb.scene import Scene
 from sobb.view import View, default_view, read_views
 
 _MAX_SIDE = 16384
+_SLOWER = 3
 
 #: The extra of the package that a command needs, where that is another than "commands".
 _EXTRAS = {"paper": "paper", "sweep": "sweep", "compare": "sweep", "report": "report"}
@@ -27,9 +29,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs one command; returns its exit code (wrong usage exits with 2 by itself)."""
     options = _parser().parse_args(arguments)
     try:
-        options.command(options)
+        code = options.command(options)
         sys.stdout.flush()
-        return 0
+        return code or 0
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # nobody reads on
         return 1
@@ -137,10 +139,28 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument(
         "--cameras", metavar="FILE", help="a JSON file of views; else that of the sweep"
     )
+
+    command = _add(commands, "sweep", _sweep, "measure scenes × methods × options into a file")
+    command.add_argument("spec", nargs="?", metavar="TOML", help="what to measure; docs/sweeps.md")
+    command.add_argument("--scenes", nargs="+", metavar="SCENE", help=named_scene_help)
+    command.add_argument("--methods", nargs="+", metavar="METHOD", help="aabb sobb embree")
+    command.add_argument("--rays", nargs="+", metavar="RAYS", help="primary shadow diffuse1 …")
+    command.add_argument("--size", type=_at_least_one, help="primary rays: NxN; 512")
+    command.add_argument("--repetitions", type=_at_least_one, help="of each row; 5")
+    command.add_argument("--out", default="results.duckdb", metavar="FILE", help="goes on there")
+    command.add_argument("--retry", action="store_true", help="try cases that failed again")
+
+    command = _add(commands, "compare", _compare, "what got faster or slower from A to B")
+    command.add_argument("a", metavar="A", help="a file of results, see sweep")
+    command.add_argument("b", metavar="B", help="another, of the same sweep")
+    command.add_argument(
+        "--threshold", type=_fraction, default=0.05, help="smaller differences are none; 0.05"
+    )
+    command.add_argument("--json", action="store_true", help="for machines, all rows")
     return parser
 
 
-def _add(commands, name: str, run: Callable[[argparse.Namespace], None], text: str):
+def _add(commands, name: str, run: Callable[[argparse.Namespace], int | None], text: str):
     command = commands.add_parser(name, help=text, description=f"{text[0].upper()}{text[1:]}.")
     command.set_defaults(command=run, extra=_EXTRAS.get(name, "commands"))
     return command
@@ -157,6 +177,13 @@ def _at_least_one(text: str) -> int:
     value = _count(text)
     if value == 0:
         raise argparse.ArgumentTypeError("0 is too small")
+    return value
+
+
+def _fraction(text: str) -> float:
+    value = float(text)
+    if not 0 <= value < 1:
+        raise argparse.ArgumentTypeError(f"{text} is not from 0 to 1")
     return value
 
 
@@ -269,3 +296,22 @@ def _report(options: argparse.Namespace) -> None:
 
     out = Path(options.out)
     command.run(options.results, out, not options.no_pictures, options.size, options.cameras)
+
+
+def _sweep(options: argparse.Namespace) -> None:
+    from sobb.sweep import command, spec
+
+    keys = "scenes", "methods", "rays", "size", "repetitions"
+    given = {key: getattr(options, key) for key in keys if getattr(options, key) is not None}
+    if options.spec is None:
+        sweep = spec.make(given, "the command line")
+    else:
+        sweep = spec.read(options.spec, given)
+    command.run(sweep, Path(options.out), options.retry)
+
+
+def _compare(options: argparse.Namespace) -> int:
+    from sobb.compare import command
+
+    slower = command.run(Path(options.a), Path(options.b), options.threshold, options.json)
+    return _SLOWER if slower else 0

@@ -1,135 +1,134 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep is about: the keys of its TOML file, with their defaults."""
+"""What a sweep is about: the keys of its TOML file, checked, with their defaults."""
 
 import difflib
-import json
 import os
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-import tomllib
+#: Measured by sobb_bench, in the library's own wide hierarchies and in Embree's.
+HIERARCHIES = ("aabb", "sobb", "embree")
+#: Measured by sobb_bench_volumes, all in one and the same hierarchy.
+_FORMS = tuple(f"sobb{k}{form}" for k in (32, 48, 64) for form in "di")
+VOLUMES = ("14-dop", "obb", *_FORMS, "sobb128", "sobb256")
 
-from sobb.hierarchy import QUALITIES, STRATEGIES, TABLES
-
-METHODS = ("aabb", "sobb", "embree")
 RAYS = ("primary", "shadow", "diffuse1", "diffuse7", "random")
 CALLS = ("single", "packet", "array")
-ISAS = ("best", "sse4", "avx2")
-SUBDIVISIONS = (1, 4, 16, 64)
 
-#: What a member of a list may be; any whole number from 0 on where it is not here.
-_CHOICES: dict[str, tuple[Any, ...]] = {
-    "methods": METHODS,
-    "rays": RAYS,
-    "calls": CALLS,
-    "k": (32, 48, 64),
-    "strategies": tuple(STRATEGIES),
-    "tables": tuple(TABLES),
-    "qualities": tuple(QUALITIES),
-    "widths": (4, 8),
-    "isas": ISAS,
-    "subdivisions": SUBDIVISIONS,
+_TEXT, _WHOLE, _NUMBER = "a text", "a whole number", "a number"
+
+
+def _memory_mib() -> int:
+    """Three quarters of the machine's."""
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 3 // 4 >> 20
+
+
+@dataclass(frozen=True)
+class _Key:
+    """A key's type and what it may hold: names, or the least and the largest number."""
+
+    type: str
+    default: Any
+    names: Sequence[Any] = ()
+    least: float = 0
+    largest: float = (1 << 31) - 1
+    many: bool = True  # a list, or one value that stands for a list of one
+
+
+#: Key -> what it may be. docs/sweeps.md says what each means.
+KEYS: Mapping[str, _Key] = {
+    "scenes": _Key(_TEXT, None),
+    "views": _Key(_WHOLE, (0,)),
+    "methods": _Key(_TEXT, HIERARCHIES, (*HIERARCHIES, *VOLUMES)),
+    "k": _Key(_WHOLE, (64,), (32, 48, 64)),
+    "strategy": _Key(_TEXT, ("k2",), ("k", "k2", "k3")),
+    "table": _Key(_TEXT, ("fitted",), ("spread", "fitted")),
+    "quality": _Key(_TEXT, ("medium",), ("low", "medium", "high")),
+    "width": _Key(_WHOLE, (8,), (4, 8)),
+    "isa": _Key(_TEXT, ("best",), ("best", "sse4", "avx2")),
+    "threads": _Key(_WHOLE, (1,), least=1, largest=1024),
+    "rays": _Key(_TEXT, RAYS, RAYS),
+    "calls": _Key(_TEXT, CALLS, CALLS),
+    "cameras": _Key(_TEXT, None, many=False),
+    "size": _Key(_WHOLE, 512, least=1, largest=8192, many=False),
+    "repetitions": _Key(_WHOLE, 5, least=1, largest=1000, many=False),
+    "min_time": _Key(_NUMBER, 0.1, least=1e-6, largest=3600, many=False),
+    "time_limit": _Key(_NUMBER, 1800.0, least=1e-3, largest=1e7, many=False),
+    "memory_limit": _Key(_WHOLE, _memory_mib(), least=1, many=False),
 }
-_AT_LEAST = {"views": 0, "threads": 1, "size": 1, "repetitions": 1, "seconds": 1, "memory_mb": 0}
 
 
 @dataclass(frozen=True)
 class Spec:
-    """A sweep. Lists are its dimensions: every combination that differs is a case."""
+    """A sweep, all defaults filled in; its members are the keys."""
 
-    scenes: list[str]
-    subdivisions: list[int]  # times a scene's triangles, by Loop's scheme
-    views: list[int]
-    methods: list[str]
-    k: list[int]
-    strategies: list[str]
-    tables: list[str]
-    qualities: list[str]
-    widths: list[int]
-    isas: list[str]
-    threads: list[int]
-    rays: list[str]  # of every case, as the calls are
-    calls: list[str]
-    size: int  # primary rays: size x size
+    scenes: tuple[str, ...]
+    views: tuple[int, ...]
+    methods: tuple[str, ...]
+    k: tuple[int, ...]
+    strategy: tuple[str, ...]
+    table: tuple[str, ...]
+    quality: tuple[str, ...]
+    width: tuple[int, ...]
+    isa: tuple[str, ...]
+    threads: tuple[int, ...]
+    rays: tuple[str, ...]
+    calls: tuple[str, ...]
+    cameras: str | None
+    size: int
     repetitions: int
-    seconds: int  # a case may take
-    memory_mb: int  # a case may have; 0 for no limit
-    cameras: str | None  # a JSON file of views
-
-    def json(self) -> str:
-        """The whole sweep, defaults filled in."""
-        return json.dumps(asdict(self))
+    min_time: float
+    time_limit: float  # seconds a case
+    memory_limit: int  # MiB a case
 
 
-_DEFAULTS: dict[str, Any] = {
-    "subdivisions": [1],
-    "views": [0],
-    "methods": list(METHODS),
-    "k": [64],
-    "strategies": ["k2"],
-    "tables": ["fitted"],
-    "qualities": ["medium"],
-    "widths": [8],
-    "isas": ["avx2"],
-    "threads": [1],
-    "rays": ["primary", "shadow", "diffuse1", "diffuse7"],
-    "calls": ["single", "array"],
-    "size": 256,
-    "repetitions": 5,
-    "seconds": 600,
-    "memory_mb": 0,
-    "cameras": None,
-}
-#: The keys, in the order in which they are documented.
-KEYS = tuple(field.name for field in fields(Spec))
-#: The keys whose value is a list.
-LISTS = tuple(key for key in KEYS if key == "scenes" or isinstance(_DEFAULTS[key], list))
-
-
-def read(path: str | os.PathLike[str]) -> dict[str, Any]:
-    """The keys of a TOML file, checked. Raises OSError or ValueError naming file and key."""
+def read(path: str | Path, given: Mapping[str, Any]) -> Spec:
+    """A TOML file; what is `given` takes the place of its keys. Raises ValueError naming the file
+    and the key."""
     try:
-        found = tomllib.loads(Path(path).read_text(encoding="utf-8"))
+        with open(path, "rb") as file:
+            values = tomllib.load(file)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path}: no TOML: {error}") from None
-    check(found, str(path))
-    return found
+        raise ValueError(f"{path}: {error}") from None
+    return make({**values, **given}, str(path))
 
 
-def check(given: Mapping[str, Any], where: str) -> None:
-    """Raises ValueError for a key that there is not, or a value that it may not have."""
-    for key, value in given.items():
+def make(values: Mapping[str, Any], source: str) -> Spec:
+    """A sweep of keys and values. Raises ValueError naming `source` and the key."""
+    for key in values:
         if key not in KEYS:
-            near = difflib.get_close_matches(key, KEYS, 1, 0.5)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(KEYS)}"
-            raise ValueError(f"{where}: no key {key!r}; {hint}")
-        if key in LISTS:
-            if not isinstance(value, list) or not value:
-                raise ValueError(f"{where}: {key} is a list of at least one value, not {value!r}")
-            for member in value:
-                _check_value(key, member, where)
-        else:
-            _check_value(key, value, where)
+            near = difflib.get_close_matches(key, KEYS, 1, 0)
+            raise ValueError(f"{source}: unknown key '{key}', the nearest is '{near[0]}'")
+    if "scenes" not in values:
+        raise ValueError(f"{source}: the key 'scenes' is missing")
+    checked = {
+        key: _checked(values[key], rule, f"{source}: {key}") if key in values else rule.default
+        for key, rule in KEYS.items()
+    }
+    return Spec(**{field.name: checked[field.name] for field in fields(Spec)})
 
 
-def _check_value(key: str, value: Any, where: str) -> None:
-    if key in _CHOICES:
-        if type(value) is not type(_CHOICES[key][0]) or value not in _CHOICES[key]:
-            choices = ", ".join(map(str, _CHOICES[key]))
-            near = difflib.get_close_matches(str(value), map(str, _CHOICES[key]), 1, 0.5)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            raise ValueError(f"{where}: {key}: {value!r} is none of {choices}{hint}")
-    elif key in _AT_LEAST:
-        if type(value) is not int or not _AT_LEAST[key] <= value < 1 << 31:
-            raise ValueError(f"{where}: {key}: {value!r} is no number from {_AT_LEAST[key]} on")
-    elif not isinstance(value, str) or not value:
-        raise ValueError(f"{where}: {key}: {value!r} is no name")
+def _checked(value: Any, rule: _Key, place: str) -> Any:
+    if not rule.many:
+        return _one(value, rule, place)
+    values = value if isinstance(value, list | tuple) else [value]
+    if not values:
+        raise ValueError(f"{place}: the list is empty")
+    return tuple(dict.fromkeys(_one(one, rule, place) for one in values))
 
 
-def make(given: Mapping[str, Any], where: str) -> Spec:
-    """The sweep of checked keys, and defaults. Raises ValueError where it has no scene."""
-    if "scenes" not in given:
-        raise ValueError(f"{where}: no scenes; a sweep needs at least one")
-    return Spec(**{**_DEFAULTS, **given})
+def _one(value: Any, rule: _Key, place: str) -> Any:
+    types: dict[str, Any] = {_TEXT: str, _WHOLE: int, _NUMBER: int | float}
+    if not isinstance(value, types[rule.type]) or isinstance(value, bool):
+        raise ValueError(f"{place}: {value!r} is not {rule.type}")
+    if rule.names:
+        if value not in rule.names:
+            near = difflib.get_close_matches(str(value), map(str, rule.names), 1, 0)
+            known = ", ".join(map(str, rule.names))
+            raise ValueError(f"{place}: unknown {value!r}, the nearest is {near[0]} of {known}")
+    elif not isinstance(value, str) and not rule.least <= value <= rule.largest:
+        raise ValueError(f"{place}: {value} is not from {rule.least} to {rule.largest}")
+    return float(value) if rule.type == _NUMBER else value

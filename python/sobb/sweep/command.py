@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command: measures what the file of results lacks, and keeps each case as it is through."""
+
+import json
+import os
+import platform
+import subprocess
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from sobb import bench, library
+from sobb.progress import bar
+from sobb.sweep import measure, plan
+from sobb.sweep.measure import Outcome
+from sobb.sweep.plan import Job
+from sobb.sweep.records import DONE, Run
+from sobb.sweep.spec import Spec
+from sobb.sweep.store import Store
+
+
+def run(spec: Spec, out: Path, retry: bool) -> None:
+    """Runs a sweep into the file `out`, or goes on with it. retry: cases that failed are tried
+    again. A case that fails is told on stderr; raises OSError at the end then."""
+    jobs = plan.jobs(spec)
+    for program in sorted({job.program for job in jobs}):
+        bench.find_program(program)
+    with Store(out) as store:
+        known = store.statuses()
+        left = [job for job in jobs if _is_left(known.get(job.case.case_id), retry)]
+        if left:
+            _measure(store, store.begin_run(_circumstances(spec)), left, len(jobs), out)
+        statuses = store.statuses()
+    bad = [job for job in jobs if statuses[job.case.case_id] != DONE]
+    print(f"{out}: {len(jobs) - len(bad)} of {len(jobs)} cases, {len(left)} of them measured now")
+    if bad:
+        raise OSError(f"{len(bad)} of {len(jobs)} cases failed; --retry tries them again")
+
+
+def _is_left(status: str | None, retry: bool) -> bool:
+    return status is None or (retry and status != DONE)
+
+
+def _measure(store: Store, run_id: int, left: Sequence[Job], total: int, out: Path) -> None:
+    embree = None
+    try:
+        with bar(f"{len(left)} of {total} cases") as progress:
+            for done, outcome in enumerate(_one_by_one(left)):
+                store.add(run_id, outcome.case, outcome.samples)
+                embree = outcome.embree_version or embree
+                _tell(outcome)
+                progress((done + 1) / len(left))
+    except BaseException:
+        print(f"sobb: {out} has the results so far; the same command goes on", file=sys.stderr)
+        raise
+    store.end_run(run_id, embree)
+
+
+def _one_by_one(jobs: Sequence[Job]) -> Iterator[Outcome]:
+    return map(measure.measure, jobs)
+
+
+def _tell(outcome: Outcome) -> None:
+    case = outcome.case
+    if case.status != DONE:
+        what = f"{case.name}, view {case.view}, {case.method}"
+        print(f"sobb: {what}: {case.status}: {case.error}", file=sys.stderr)
+
+
+def _circumstances(spec: Spec) -> Run:
+    return Run(
+        host=platform.node(), processor=_processor(), cores=os.cpu_count() or 1,
+        sobb_version=library.version(), embree_version=None, git_commit=_git_commit(),
+        python_version=platform.python_version(), spec=json.dumps(asdict(spec)),
+    )  # fmt: skip
+
+
+def _processor() -> str:
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.partition(":")[2].strip()
+    return platform.machine()
+
+
+def _git_commit() -> str | None:
+    """The commit of the checkout that this package lies in, with + where it was changed."""
+    folder = Path(__file__).resolve().parents[3]
+    if not (folder / ".git").exists():
+        return None
+    try:
+        git = ["git", "-C", str(folder)]
+        head = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True)
+        state = subprocess.run([*git, "status", "--porcelain", "-uno"], capture_output=True)
+    except OSError:
+        return None
+    return head.stdout.strip() + ("+" if state.stdout else "") or None
