@@ -149,6 +149,7 @@ def _parser() -> argparse.ArgumentParser:
     command.add_argument("--repetitions", type=_at_least_one, help="of each row; 5")
     command.add_argument("--out", default="results.duckdb", metavar="FILE", help="goes on there")
     command.add_argument("--retry", action="store_true", help="try cases that failed again")
+    command.add_argument("--dask", metavar="ADDRESS", help="tcp://HOST:PORT of a Dask scheduler")
 
     command = _add(commands, "compare", _compare, "what got faster or slower from A to B")
     command.add_argument("a", metavar="A", help="a file of results, see sweep")
@@ -307,7 +308,7 @@ def _sweep(options: argparse.Namespace) -> None:
         sweep = spec.make(given, "the command line")
     else:
         sweep = spec.read(options.spec, given)
-    command.run(sweep, Path(options.out), options.retry)
+    command.run(sweep, Path(options.out), options.retry, options.dask)
 
 
 def _compare(options: argparse.Namespace) -> int:

@@ -20,17 +20,19 @@ from sobb.sweep.spec import Spec
 from sobb.sweep.store import Store
 
 
-def run(spec: Spec, out: Path, retry: bool) -> None:
+def run(spec: Spec, out: Path, retry: bool, dask: str | None = None) -> None:
     """Runs a sweep into the file `out`, or goes on with it. retry: cases that failed are tried
-    again. A case that fails is told on stderr; raises OSError at the end then."""
+    again; dask: the address of a scheduler whose workers measure. A case that fails is told on
+    stderr; raises OSError at the end then."""
     jobs = plan.jobs(spec)
-    for program in sorted({job.program for job in jobs}):
-        bench.find_program(program)
+    if dask is None:
+        for program in sorted({job.program for job in jobs}):
+            bench.find_program(program)
     with Store(out) as store:
         known = store.statuses()
         left = [job for job in jobs if _is_left(known.get(job.case.case_id), retry)]
         if left:
-            _measure(store, store.begin_run(_circumstances(spec)), left, len(jobs), out)
+            _measure(store, store.begin_run(_circumstances(spec)), left, len(jobs), out, dask)
         statuses = store.statuses()
     bad = [job for job in jobs if statuses[job.case.case_id] != DONE]
     print(f"{out}: {len(jobs) - len(bad)} of {len(jobs)} cases, {len(left)} of them measured now")
@@ -42,11 +44,13 @@ def _is_left(status: str | None, retry: bool) -> bool:
     return status is None or (retry and status != DONE)
 
 
-def _measure(store: Store, run_id: int, left: Sequence[Job], total: int, out: Path) -> None:
+def _measure(
+    store: Store, run_id: int, left: Sequence[Job], total: int, out: Path, dask: str | None
+) -> None:
     embree = None
     try:
         with bar(f"{len(left)} of {total} cases") as progress:
-            for done, outcome in enumerate(_one_by_one(left)):
+            for done, outcome in enumerate(_outcomes(left, dask)):
                 store.add(run_id, outcome.case, outcome.samples)
                 embree = outcome.embree_version or embree
                 _tell(outcome)
@@ -57,8 +61,12 @@ def _measure(store: Store, run_id: int, left: Sequence[Job], total: int, out: Pa
     store.end_run(run_id, embree)
 
 
-def _one_by_one(jobs: Sequence[Job]) -> Iterator[Outcome]:
-    return map(measure.measure, jobs)
+def _outcomes(jobs: Sequence[Job], dask: str | None) -> Iterator[Outcome]:
+    if dask is None:
+        return map(measure.measure, jobs)
+    from sobb.sweep import cluster  # a local run does without it
+
+    return cluster.run(dask, jobs)
 
 
 def _tell(outcome: Outcome) -> None:
