@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/tbb_threads.h"
 
+#include <oneapi/tbb/cache_aligned_allocator.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <memory>
+#include <list>
 #include <mutex>
-#include <utility>
 
 namespace sobb {
 namespace {
@@ -18,37 +18,36 @@ struct Arena {
 
   int size;
   tbb::task_arena arena;
-  std::unique_ptr<Arena> next;
 };
+
+// TBB's memory, as its arenas are: no call's, and no caller's.
+using Arenas = std::list<Arena, tbb::cache_aligned_allocator<Arena>>;
 
 // Arenas that nobody is in. They are kept for ever, as many as were ever used at once: an arena
 // that is destroyed while a worker is about to leave it is not freed (TBB 2021.8: 30 KB a build).
 class IdleArenas {
  public:
-  // One of `size` threads.
-  std::unique_ptr<Arena> take(int size) {
+  // A list of one, of `size` threads.
+  Arenas take(int size) {
+    Arenas taken;
     {
       const std::scoped_lock lock(mutex_);
-      std::unique_ptr<Arena>* link = &first_;
-      while (*link && (*link)->size != size) link = &(*link)->next;
-      if (*link) {
-        std::unique_ptr<Arena> found = std::move(*link);
-        *link = std::move(found->next);
-        return found;
-      }
+      const auto found =
+          std::ranges::find_if(arenas_, [&](const Arena& arena) { return arena.size == size; });
+      if (found != arenas_.end()) taken.splice(taken.begin(), arenas_, found);
     }
-    return std::make_unique<Arena>(size);
+    if (taken.empty()) taken.emplace_back(size);
+    return taken;
   }
 
-  void give_back(std::unique_ptr<Arena> arena) {
+  void give_back(Arenas& taken) {
     const std::scoped_lock lock(mutex_);
-    arena->next = std::move(first_);
-    first_ = std::move(arena);
+    arenas_.splice(arenas_.begin(), taken);
   }
 
  private:
   std::mutex mutex_;
-  std::unique_ptr<Arena> first_;
+  Arenas arenas_;
 };
 
 // Never destroyed: at the process's end TBB may have gone before.
@@ -56,6 +55,20 @@ IdleArenas& idle_arenas() {
   static IdleArenas& arenas = *new IdleArenas;
   return arenas;
 }
+
+// An arena for a while, given back however the while ends.
+class BorrowedArena {
+ public:
+  explicit BorrowedArena(int size) : taken_(idle_arenas().take(size)) {}
+  ~BorrowedArena() { idle_arenas().give_back(taken_); }
+  BorrowedArena(const BorrowedArena&) = delete;
+  BorrowedArena& operator=(const BorrowedArena&) = delete;
+
+  tbb::task_arena& operator*() { return taken_.front().arena; }
+
+ private:
+  Arenas taken_;
+};
 
 template <class Body>
 void within_arena(uint32_t threads, const Body& body) {
@@ -66,10 +79,8 @@ void within_arena(uint32_t threads, const Body& body) {
   // TBB never runs more than its limit, complains of a larger arena, and allocates all its slots.
   const size_t limit =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  std::unique_ptr<Arena> arena =
-      idle_arenas().take(static_cast<int>(std::min<size_t>(threads, limit)));
-  arena->arena.execute(body);
-  idle_arenas().give_back(std::move(arena));
+  BorrowedArena arena(static_cast<int>(std::min<size_t>(threads, limit)));
+  (*arena).execute(body);
 }
 
 }  // namespace
