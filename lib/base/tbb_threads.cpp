@@ -7,8 +7,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <list>
 #include <mutex>
+#include <new>
 
 namespace sobb {
 namespace {
@@ -52,7 +54,8 @@ class IdleArenas {
 
 // Never destroyed: at the process's end TBB may have gone before.
 IdleArenas& idle_arenas() {
-  static IdleArenas& arenas = *new IdleArenas;
+  alignas(IdleArenas) static std::byte room[sizeof(IdleArenas)];
+  static IdleArenas& arenas = *new (room) IdleArenas;
   return arenas;
 }
 

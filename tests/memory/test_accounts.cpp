@@ -29,7 +29,8 @@ TEST(Accounts, AllocatorSeesEveryByte) {
         const HierarchyHandle built = build_soup(soup, building);
         EXPECT_GE(memory.through_allocator.peak, memory.through_allocator.bytes);
         EXPECT_GE(info_of(built).peak_bytes, memory.through_allocator.peak);
-        if (quality != SOBB_QUALITY_LOW) {
+        // Threads account for a block before they ask for it.
+        if (quality != SOBB_QUALITY_LOW && threads == 1) {
           EXPECT_EQ(info_of(built).peak_bytes, memory.through_allocator.peak);
         }
         trace(built, rays, trace_options(0, threads));
