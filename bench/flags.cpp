@@ -16,7 +16,7 @@ CLI::CheckedTransformer names(const std::map<std::string, uint32_t>& values) {
 
 void add_flags(CLI::App& app, Flags& flags) {
   app.add_option("--scene", flags.scene,
-                 "a scene file, or builtin:NAME[:TRIANGLES]; with @DEGREES turned")
+                 "a scene file, or builtin:NAME[:TRIANGLES]; with ^TIMES refined, @DEGREES turned")
       ->capture_default_str();
   app.add_option("--cameras", flags.cameras, "a JSON file of views (see sobb/scene.h)");
   app.add_option("--view", flags.view, "which of the scene's views")->capture_default_str();

@@ -5,10 +5,10 @@
 # Compilers, tools and libraries of a release build, and Python's virtual environments.
 build_packages="g++ cmake ninja-build ccache pkg-config
   libembree-dev libtbb-dev libhwy-dev libxxhash-dev libtinygltf-dev nlohmann-json3-dev
-  libbenchmark-dev libcli11-dev python3-venv"
+  libopenmesh-dev libbenchmark-dev libcli11-dev python3-venv"
 
 # What the tests and checks need besides.
-test_packages="git libgtest-dev libopenmesh-dev chromium
+test_packages="git libgtest-dev chromium
   clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
 
 # What scripts/coverage.sh needs besides.

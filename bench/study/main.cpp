@@ -27,7 +27,8 @@ constexpr Question kQuestions[] = {
 };
 
 void add_options(CLI::App& app, StudyOptions& options) {
-  app.add_option("--scene", options.scenes, "a scene file, or builtin:NAME[:TRIANGLES][@DEGREES]")
+  app.add_option("--scene", options.scenes,
+                 "a scene file, or builtin:NAME[:TRIANGLES]; then [^TIMES][@DEGREES]")
       ->required();
   app.add_option("--directions", options.directions, "a file of unit vectors, a line `x y z` each");
   app.add_option("--out", options.out, "write the JSON there, not to standard output");

@@ -9,7 +9,7 @@
 namespace sobb::study {
 
 struct StudyOptions {
-  std::vector<std::string> scenes;      // each a file or builtin:NAME[:TRIANGLES][@DEGREES]
+  std::vector<std::string> scenes;      // each as sobb_scene_load() takes it
   std::vector<std::string> directions;  // files of direction tables, lines `x y z`
   std::string out;                      // the JSON's file; empty: standard output
   uint32_t threads = 0;                 // 0: as many as TBB gives

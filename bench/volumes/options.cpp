@@ -20,7 +20,7 @@ CLI::Option* add_choice(CLI::App& app, const std::string& flag, T& target,
 
 void add_options(CLI::App& app, Options& options) {
   app.add_option("--scene", options.scene,
-                 "a scene file, or builtin:NAME[:TRIANGLES]; @DEGREES turns it")
+                 "a scene file, or builtin:NAME[:TRIANGLES]; ^TIMES refines it, @DEGREES turns it")
       ->capture_default_str();
   app.add_option("--cameras", options.cameras, "a JSON file of views (see sobb/scene.h)");
   app.add_option("--view", options.view, "which of the scene's views")->capture_default_str();

@@ -17,12 +17,19 @@ class Progress {
   Progress(int (*callback)(void* user, double fraction), void* user, const char* what = "the build")
       : callback_(callback), user_(user), what_(what) {}
 
+  // All reports to come are of this part of the whole. Not while others report.
+  void set_part(double begin, double end) {
+    part_begin_ = begin;
+    part_end_ = end;
+  }
+
   // Reports that the stage covering [begin, end] of the whole is `fraction` done. Returns false
   // once the caller wants to stop. A report behind another is told as that one.
   bool report(double begin, double end, double fraction) {
     if (callback_ == nullptr) return true;
     const std::scoped_lock lock(mutex_);
-    reported_ = std::max(reported_, begin + (end - begin) * fraction);
+    const double done = begin + (end - begin) * fraction;
+    reported_ = std::max(reported_, part_begin_ + (part_end_ - part_begin_) * done);
     if (!cancelled_) cancelled_ = callback_(user_, reported_) != 0;
     return !cancelled_;
   }
@@ -36,6 +43,8 @@ class Progress {
   int (*callback_)(void*, double);
   void* user_;
   const char* what_;
+  double part_begin_ = 0;
+  double part_end_ = 1;
   std::mutex mutex_;
   double reported_ = 0;
   bool cancelled_ = false;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "scene/builtin.h"
 #include "scene/gltf.h"
+#include "scene/loop_subdivision.h"
 #include "scene/obj.h"
 #include "scene/oblique_turn.h"
 #include "scene/off.h"
@@ -100,9 +101,10 @@ void load_file(const std::string& path, const char* views_path, uint64_t memory_
   scene.default_view = true;
 }
 
-// Where a turn's '@' is; npos in a path that is meant as it stands.
-size_t find_turn(const std::string& source) {
-  const size_t at = source.rfind('@');
+// Where the suffix that begins with `mark` is; npos in a path that is meant as it stands.
+size_t find_suffix(const std::string& source, char mark) {
+  const size_t at = source.rfind(mark);
+  if (is_builtin(source)) return at;
   const size_t slash = source.rfind('/');
   const bool in_folder = at != std::string::npos && slash != std::string::npos && at < slash;
   if (in_folder || is_known(split_path(source).ending) || file_exists(source)) {
@@ -111,19 +113,45 @@ size_t find_turn(const std::string& source) {
   return at;
 }
 
+// SOURCE[^TIMES][@DEGREES]
+struct SourceParts {
+  std::string scene;
+  unsigned subdivisions = 0;
+  std::string turn;  // with its '@', or nothing
+};
+
+SourceParts split_source(const std::string& source) {
+  SourceParts parts;
+  const size_t turn = find_suffix(source, '@');
+  parts.scene = source.substr(0, turn);
+  if (turn != std::string::npos) parts.turn = source.substr(turn);
+  const size_t times = find_suffix(parts.scene, '^');
+  if (times == std::string::npos) return parts;
+  parts.subdivisions = parse_subdivisions(source, std::string_view(parts.scene).substr(times + 1));
+  parts.scene.resize(times);
+  return parts;
+}
+
+// Subdividing takes most of the time.
+constexpr double kLoadedShare = 0.2;
+
 }  // namespace
 
 Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit,
                  Progress* progress) {
+  const SourceParts parts = split_source(source);
+  const bool subdivided = parts.subdivisions > 0;
+  if (subdivided && progress != nullptr) progress->set_part(0, kLoadedShare);
   Scene scene;
   if (is_builtin(source)) {
-    load_builtin(source, views_path, memory_limit, progress, scene);
-    return scene;
+    load_builtin(parts.scene + parts.turn, views_path, memory_limit, progress, scene);
+  } else {
+    const double degrees = parts.turn.empty() ? 0 : parse_degrees(source, parts.turn.substr(1));
+    load_file(parts.scene, views_path, memory_limit, progress, scene);
+    if (degrees != 0) turn_scene(source, degrees, scene, progress);
   }
-  const size_t at = find_turn(source);
-  const double degrees = at == std::string::npos ? 0 : parse_degrees(source, source.substr(at + 1));
-  load_file(source.substr(0, at), views_path, memory_limit, progress, scene);
-  if (degrees != 0) turn_scene(source, degrees, scene, progress);
+  if (subdivided && progress != nullptr) progress->set_part(kLoadedShare, 1);
+  if (subdivided) subdivide_scene(source, parts.subdivisions, memory_limit, scene, progress);
   return scene;
 }
 

@@ -55,7 +55,8 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     scene_help = (
         "a .gltf, .glb, .obj, .ply, .stl or .off file, or builtin:NAME[:TRIANGLES]; "
-        "with @DEGREES behind it turned about an oblique axis"
+        "with ^4, ^16 or ^64 behind it refined to so many times its triangles, "
+        "with @DEGREES turned about an oblique axis"
     )
     named_scene_help = f"{scene_help}; or the name of a file in the folder SOBB_SCENES"
 

@@ -42,7 +42,8 @@ class Scene:
     ) -> "Scene":
         """
         source: a .gltf, .glb, .obj, .ply, .stl or .off file, or
-            "builtin:NAME[:TRIANGLES]"; "@DEGREES" behind it turns the scene and its views.
+            "builtin:NAME[:TRIANGLES]"; "^4", "^16" or "^64" behind it refines the scene to so
+            many times its triangles, "@DEGREES" turns it and its views.
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
         memory_limit: bytes that loading may hold at once; 0 for none.
         progress: as in sobb.build(); a file that takes too long is given up so.

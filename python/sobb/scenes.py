@@ -10,6 +10,7 @@ from pathlib import Path
 _BUILTIN = "builtin:"
 _ENDINGS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 _TURN = re.compile(r"@[-+.\d]+$")
+_TIMES = re.compile(r"\^\d+$")
 
 # Sizes like those of the paper's scenes.
 _SIZES = {
@@ -38,7 +39,8 @@ class Source:
 
 def resolve(names: Sequence[str]) -> list[Source]:
     """Paths, built-in scenes and names of files in the folder SOBB_SCENES, any of them with
-    @DEGREES, one by one or with commas between. Raises OSError naming all that are missing."""
+    ^TIMES and @DEGREES, one by one or with commas between. Raises OSError naming all that are
+    missing."""
     found = [(name, _find(name)) for given in names for name in _one_by_one(given)]
     missing = [name for name, source in found if source is None]
     if missing:
@@ -83,9 +85,10 @@ def _one_by_one(given: str) -> list[str]:
 
 
 def _find(name: str) -> Source | None:
-    base, turn = split_turn(name)
+    base = _TIMES.sub("", split_turn(name)[0])
+    suffix = name[len(base) :]
     if base.startswith(_BUILTIN):
-        return Source(name, base.removeprefix(_BUILTIN).split(":")[0] + turn, name)
+        return Source(name, base.removeprefix(_BUILTIN).split(":")[0] + suffix, name)
     if Path(name).is_file():
         return Source(name, Path(name).stem, name)
     path = Path(base)
@@ -93,7 +96,20 @@ def _find(name: str) -> Source | None:
     if not path.is_file() and folder is not None and path.name == base:
         files = (folder / (base + ending) for ending in ("", *_ENDINGS))
         path = next(filter(Path.is_file, files), path)
-    return Source(f"{path}{turn}", path.stem + turn, name) if path.is_file() else None
+    return Source(f"{path}{suffix}", path.stem + suffix, name) if path.is_file() else None
+
+
+def unrefined(name: str) -> tuple[str, int]:
+    """A scene's name without ^TIMES, and those; 1 where it is not refined."""
+    base, turn = split_turn(name)
+    times = _TIMES.search(base)
+    return (name, 1) if times is None else (base[: times.start()] + turn, int(times[0][1:]))
+
+
+def refined(name: str, times: int) -> str:
+    """With ^TIMES, unless they are 1."""
+    base, turn = split_turn(name)
+    return f"{base}^{times}{turn}" if times > 1 else name
 
 
 def split_turn(name: str) -> tuple[str, str]:

@@ -10,6 +10,7 @@ def test_scenes_by_name(folder, tmp_path):
     loose = tmp_path / "model@7.ply"
     loose.touch()
     names = ["crown", "crown@30", "other@-12.5", f"{folder}/crown.glb@30", str(loose)]
+    names += ["crown^16", "other^4@30", "builtin:city:5000^4@30"]
     found = scenes.resolve([*names, "builtin:city:5000@30"])
     assert [(s.argument, s.name) for s in found] == [
         (f"{folder}/crown.glb", "crown"),
@@ -17,6 +18,9 @@ def test_scenes_by_name(folder, tmp_path):
         (f"{folder}/other.obj@-12.5", "other@-12.5"),
         (f"{folder}/crown.glb@30", "crown@30"),
         (str(loose), "model@7"),
+        (f"{folder}/crown.glb^16", "crown^16"),
+        (f"{folder}/other.obj^4@30", "other^4@30"),
+        ("builtin:city:5000^4@30", "city^4@30"),
         ("builtin:city:5000@30", "city@30"),
     ]
     assert [s.asked for s in found] == [*names, "builtin:city:5000@30"]

@@ -76,6 +76,32 @@ def test_options_without_meaning_make_no_cases():
     assert {name: methods.count(name) for name in methods} == {"aabb": 2, "sobb": 8, "embree": 1}
 
 
+def test_subdivisions():
+    values = {"scenes": ["builtin:city:500@30", "builtin:pipes:500^16"], "subdivisions": [1, 4]}
+    jobs = plan.jobs(spec.make(values | {"methods": "sobb"}, "test"))
+    assert [(job.case.scene, job.case.name, job.case.subdivision) for job in jobs] == [
+        ("builtin:city:500@30", "city@30", 1),
+        ("builtin:city:500@30", "city@30", 4),
+        ("builtin:pipes:500", "pipes", 16),
+    ]
+    assert [job.arguments[0] for job in jobs] == [
+        "--scene=builtin:city:500@30",
+        "--scene=builtin:city:500^4@30",
+        "--scene=builtin:pipes:500^16",
+    ]
+
+
+def test_a_refined_scene_has_more_triangles(cli, tmp_path, toml):
+    toml.write_text(SWEEP.replace("]", "]\nsubdivisions = [1, 16]", 1))
+    out, fewer = tmp_path / "r.duckdb", ("--scenes", "builtin:city:500", "--methods", "sobb")
+    assert cli("sweep", toml, *fewer, "--out", out).returncode == 0
+    with duckdb.connect(str(out), read_only=True) as connection:
+        rows = connection.execute(
+            "SELECT subdivision, triangles FROM cases ORDER BY ALL"
+        ).fetchall()
+    assert [times for times, _ in rows] == [1, 16] and rows[1][1] == 16 * rows[0][1]
+
+
 def test_missing_scenes_come_first(cli, tmp_path, toml):
     out = tmp_path / "r.duckdb"
     done = cli("sweep", toml, "--scenes", "builtin:city:500", "gone.glb", "--out", out)

@@ -123,7 +123,10 @@ std::vector<std::string> large_scenes(const TemporaryFolder& folder) {
   const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
   return {folder.write("a.obj", vertices + repeated("# nothing\n", 300'000) + "f 1 2 3\n"),
           folder.write("b.obj", vertices + repeated("f 1 2 3\n", 100'000)),
-          folder.write("a.glb", gltf.glb()), "builtin:city:200000", "builtin:city:200000@30"};
+          folder.write("a.glb", gltf.glb()),
+          "builtin:city:200000",
+          "builtin:city:200000@30",
+          "builtin:city:20000^16"};
 }
 
 TEST(Limits, ProgressRisesAndMayCancelAtAnyCall) {

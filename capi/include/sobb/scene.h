@@ -17,6 +17,15 @@
  * the centre of the file's box, or one of the built-in scene's own. A file whose name is the whole
  * text wins.
  *
+ * Refined scenes: `^TIMES` (4, 16 or 64) behind the name or path, before a turn, subdivides every
+ * triangle into so many: `bunny.ply^16`, `builtin:city:1000^4@30`. The surface is that of C. Loop,
+ * *Smooth Subdivision Surfaces Based on Triangles*, 1987, by OpenMesh. Vertices at one place are
+ * one; where triangles do not meet by two at an edge, facing the same way, the surface ends, and is
+ * smoothed along its end as a curve: no triangle is lost. Those made of one lie together, in its
+ * place; meshes are ranges as before, views stay as they are. The same bits on every machine: sums
+ * in double, in fixed order, weights rounded to float, so that the last bits of a cosine do not
+ * matter (tested up to 10,000 triangles about a vertex). Time grows with the square of that number.
+ *
  * Errors and struct_size are as in sobb.h; messages by sobb_last_error(). All functions are
  * thread-safe; a scene is immutable.
  */
@@ -85,7 +94,7 @@ typedef struct sobb_scene_info {
 
 /**
  * Loads a scene.
- * @param source a path, or `builtin:…`, with or without `@DEGREES`.
+ * @param source a path, or `builtin:…`, with or without `^TIMES` and `@DEGREES`.
  * @param options NULL for the defaults.
  * @param out the new handle, with one reference, to be given to sobb_scene_release().
  * @return SOBB_ERROR_FILE_OPEN, _FILE_READ; SOBB_ERROR_SCENE_FORMAT (unknown ending or built-in

@@ -31,19 +31,32 @@ def jobs(spec: Spec) -> list[Job]:
     sources = scenes.resolve(spec.scenes)
     found = {
         job.case.case_id: job
-        for source, view, method in itertools.product(sources, spec.views, spec.methods)
-        for job in _jobs(spec, source, view, method)
+        for source in sources
+        for refined, times in _refined(spec, source)
+        for view, method in itertools.product(spec.views, spec.methods)
+        for job in _jobs(spec, refined, times, view, method)
     }
     return list(found.values())
 
 
-def _jobs(spec: Spec, source: scenes.Source, view: int, method: str) -> Iterator[Job]:
+def _refined(spec: Spec, source: scenes.Source) -> Iterator[tuple[scenes.Source, int]]:
+    """A scene at each subdivision, by one and the same name; only at its own if it names one."""
+    _, own = scenes.unrefined(source.argument)
+    if own > 1:
+        name, asked = scenes.unrefined(source.name)[0], scenes.unrefined(source.asked)[0]
+        yield scenes.Source(source.argument, name, asked), own
+        return
+    for times in spec.subdivisions:
+        yield replace(source, argument=scenes.refined(source.argument, times)), times
+
+
+def _jobs(spec: Spec, source: scenes.Source, times: int, view: int, method: str) -> Iterator[Job]:
     options = itertools.product(
         spec.k, spec.strategy, spec.table, spec.quality, spec.width, spec.isa, spec.threads
     )
     for k, strategy, table, quality, width, isa, threads in options:
         case = Case(
-            "", source.asked, source.name, 1, view, method,
+            "", source.asked, source.name, times, view, method,
             k, strategy, table, quality, width, isa, threads,
         )  # fmt: skip
         if method == "embree":

@@ -41,6 +41,7 @@ class _Key:
 #: Key -> what it may be. docs/sweeps.md says what each means.
 KEYS: Mapping[str, _Key] = {
     "scenes": _Key(_TEXT, None),
+    "subdivisions": _Key(_WHOLE, (1,), (1, 4, 16, 64)),
     "views": _Key(_WHOLE, (0,)),
     "methods": _Key(_TEXT, HIERARCHIES, (*HIERARCHIES, *VOLUMES)),
     "k": _Key(_WHOLE, (64,), (32, 48, 64)),
@@ -66,6 +67,7 @@ class Spec:
     """A sweep, all defaults filled in; its members are the keys."""
 
     scenes: tuple[str, ...]
+    subdivisions: tuple[int, ...]
     views: tuple[int, ...]
     methods: tuple[str, ...]
     k: tuple[int, ...]
