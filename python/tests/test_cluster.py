@@ -9,16 +9,26 @@ import time
 
 import pytest
 
-duckdb = pytest.importorskip("duckdb")
+pytest.importorskip("duckdb")
 distributed = pytest.importorskip("distributed")
 
-SWEEP = ("--scenes", "builtin:city:500", "builtin:pipes:500", "builtin:terrain:500")
-SWEEP += ("--rays", "primary", "--size", "8", "--repetitions", "2")
+import interrupts  # noqa: E402
+
+SWEEP = """
+scenes = ["builtin:city:500", "builtin:pipes:500", "builtin:terrain:500"]
+methods = ["aabb", "sobb", "embree", "obb"]
+rays = ["primary"]
+size = 8
+repetitions = 2
+min_time = 0.001
+"""
 
 
-def _cases(path):
-    with duckdb.connect(str(path), read_only=True) as connection:
-        return connection.execute("SELECT case_id, status FROM cases ORDER BY ALL").fetchall()
+@pytest.fixture
+def toml(tmp_path):
+    path = tmp_path / "sweep.toml"
+    path.write_text(SWEEP)
+    return path
 
 
 @pytest.fixture
@@ -28,23 +38,27 @@ def cluster():
         yield cluster
 
 
-def test_a_killed_worker_loses_nothing(cli, tmp_path, cluster):
+def test_interrupted_three_times_by_ctrl_c_a_kill_and_a_killed_worker(cli, tmp_path, toml, cluster):
     whole, parts = tmp_path / "whole.duckdb", tmp_path / "parts.duckdb"
-    assert cli("sweep", *SWEEP, "--out", whole).returncode == 0
-    address = cluster.scheduler_address
-    command = [sys.executable, "-m", "sobb", "sweep", *SWEEP, "--out", parts, "--dask", address]
-    sweep = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    assert cli("sweep", toml, "--out", whole).returncode == 0
+    sweep = ["sweep", toml, "--out", parts, "--dask", cluster.scheduler_address]
+    for number in (signal.SIGINT, signal.SIGKILL):
+        code, said = interrupts.interrupt(sweep, parts, number)
+        assert code == (1 if number == signal.SIGINT else -number), said
+    command = [sys.executable, "-m", "sobb", *map(str, sweep)]
+    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
     with distributed.Client(cluster) as client:
         workers = list(client.run(os.getpid).values())
         end = time.monotonic() + 60
         while not any(client.processing().values()) and time.monotonic() < end:
             time.sleep(0.01)
         os.kill(workers[0], signal.SIGKILL)
-    _, said = sweep.communicate(timeout=120)
-    assert sweep.returncode == 0, said
-    assert _cases(parts) == _cases(whole) and len(_cases(whole)) == 9
+    _, said = running.communicate(timeout=120)
+    assert running.returncode == 0, said
+    assert interrupts.rows(parts) == interrupts.rows(whole)
+    assert len(interrupts.rows(whole)[0]) == 12
 
 
-def test_no_scheduler(cli, tmp_path):
-    done = cli("sweep", *SWEEP, "--out", tmp_path / "r.duckdb", "--dask", "tcp://127.0.0.1:9")
+def test_no_scheduler(cli, tmp_path, toml):
+    done = cli("sweep", toml, "--out", tmp_path / "r.duckdb", "--dask", "tcp://127.0.0.1:9")
     assert done.returncode == 1 and "no Dask scheduler" in done.stderr

@@ -2,15 +2,16 @@
 """Sweeps: what a file of them may say, what is kept, and that interruptions lose nothing."""
 
 import os
+import resource
 import signal
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 import pytest
 
 duckdb = pytest.importorskip("duckdb")
+
+import interrupts  # noqa: E402
 
 from sobb.sweep import host_lock, plan, process, spec  # noqa: E402
 from sobb.sweep.records import CRASHED, DONE, FAILED, MEMORY, TIMEOUT  # noqa: E402
@@ -30,17 +31,6 @@ def toml(tmp_path):
     path = tmp_path / "sweep.toml"
     path.write_text(SWEEP)
     return path
-
-
-def _rows(path):
-    with duckdb.connect(str(path), read_only=True) as connection:
-        cases = connection.execute("SELECT case_id, status FROM cases ORDER BY ALL").fetchall()
-        # sobb_bench_volumes repeats a row as often as it fits its time
-        kept = connection.execute(
-            "SELECT case_id, rays, call, metric, if(method = 'obb', 0, repetition) AS repetition "
-            "FROM results GROUP BY ALL ORDER BY ALL"
-        ).fetchall()
-    return cases, kept
 
 
 @pytest.mark.parametrize(
@@ -114,7 +104,7 @@ def test_a_scene_that_fails_stops_no_other(cli, tmp_path, toml):
     out, scenes = tmp_path / "r.duckdb", ("--scenes", tmp_path / "bad.obj", "builtin:city:500")
     done = cli("sweep", toml, *scenes, "--methods", "sobb", "--out", out)
     assert done.returncode == 1 and "bad.obj" in done.stderr and "1 of 2 cases" in done.stderr
-    assert sorted(status for _, status in _rows(out)[0]) == ["done", "failed"]
+    assert sorted(status for _, status in interrupts.rows(out)[0]) == ["done", "failed"]
 
 
 @pytest.mark.parametrize(
@@ -145,32 +135,37 @@ def test_turns(tmp_path):
     assert other.communicate(timeout=60)[0] == b"mine\n"
 
 
-def _interrupt(toml, out, number):
-    """Starts the sweep; sends it a signal once it has kept something more."""
-    before = _kept(out)
-    command = [sys.executable, "-m", "sobb", "sweep", toml, "--out", out]
-    running = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    end = time.monotonic() + 60
-    while _kept(out) == before and running.poll() is None and time.monotonic() < end:
-        time.sleep(0.005)
-    running.send_signal(number)
-    return running.wait(60), running.stderr.read()
-
-
-def _kept(out):
-    return sum(path.stat().st_size for path in (out, Path(f"{out}.wal")) if path.exists())
-
-
 def test_interrupted_sweeps_end_with_the_same_rows(cli, tmp_path, toml):
     whole, parts = tmp_path / "whole.duckdb", tmp_path / "parts.duckdb"
     assert cli("sweep", toml, "--out", whole).returncode == 0
     for number in (signal.SIGINT, signal.SIGKILL, signal.SIGINT):
-        code, said = _interrupt(toml, parts, number)
+        code, said = interrupts.interrupt(["sweep", toml, "--out", parts], parts, number)
         assert code == (1 if number == signal.SIGINT else -number), said
         if number == signal.SIGINT:
             assert "interrupted" in said
     done = cli("sweep", toml, "--out", parts)
     assert done.returncode == 0, done.stderr
-    assert _rows(parts) == _rows(whole)
+    assert interrupts.rows(parts) == interrupts.rows(whole)
     again = cli("sweep", toml, "--out", parts)
     assert "0 of them measured now" in again.stdout
+
+
+def _files_up_to(size):
+    """No file of a process grows beyond that: a disk that is full."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+def test_a_full_disk_loses_nothing(cli, tmp_path, toml):
+    whole, parts = tmp_path / "whole.duckdb", tmp_path / "parts.duckdb"
+    command = [sys.executable, "-m", "sobb", "sweep", toml, "--out", parts]
+    for size, kept in ((0, False), (8 << 10, False), (20 << 10, True)):
+        full = subprocess.run(
+            command, preexec_fn=lambda size=size: _files_up_to(size), capture_output=True, text=True
+        )
+        assert full.returncode == 1 and f"sobb: {parts}: " in full.stderr
+        assert "File too large" in full.stderr and parts.exists() == kept, full.stderr
+    assert 0 < len(interrupts.rows(parts)[0]) < 12
+    assert cli("sweep", toml, "--out", parts).returncode == 0
+    assert cli("sweep", toml, "--out", whole).returncode == 0
+    assert interrupts.rows(parts) == interrupts.rows(whole)

@@ -39,8 +39,14 @@ class Store:
         self._path = Path(path)
         if read_only and not self._path.is_file():
             raise FileNotFoundError(f"{path}: no such file")
-        with self._errors():
-            self._connection = duckdb.connect(str(path), read_only=read_only)
+        is_new = not self._path.exists()
+        try:
+            with self._errors():
+                self._connection = duckdb.connect(str(path), read_only=read_only)
+        except OSError:
+            if is_new:
+                self._path.unlink(missing_ok=True)  # a full disk left a part of a header
+            raise
         try:
             with self._errors():
                 self._check_or_make(read_only)
