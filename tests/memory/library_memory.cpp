@@ -43,7 +43,8 @@ bool library_asks() {
   for (int i = 0; i < count; ++i) {
     const std::string_view module = module_of(frames[i]);
     if (module == own || module.starts_with("libstdc++")) continue;
-    ours = module.starts_with("libsobb") || module.starts_with("libtinygltf");
+    ours = module.starts_with("libsobb") || module.starts_with("libtinygltf") ||
+           module.starts_with("libOpenMesh");
     break;
   }
   asking = false;

@@ -162,6 +162,7 @@ const Source kSources[] = {
      "solid one\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
      "endloop\nendfacet\nendsolid one\n"},
     {"turned.obj@30", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+    {"refined.obj^16", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
     {"builtin:pipes:500", ""}};
 
 class FailingScene : public testing::TestWithParam<Source> {};
@@ -169,9 +170,9 @@ class FailingScene : public testing::TestWithParam<Source> {};
 TEST_P(FailingScene, IsAStatus) {
   const auto& [name, text] = GetParam();
   const TemporaryFolder folder;
-  const size_t turn = std::min(name.size(), name.find('@'));
+  const size_t suffix = std::min(name.size(), name.find_first_of("^@"));
   const std::string source =
-      text.empty() ? name : folder.write(name.substr(0, turn), text) + name.substr(turn);
+      text.empty() ? name : folder.write(name.substr(0, suffix), text) + name.substr(suffix);
   report(fail_each([&](const sobb_allocator*) {
     sobb_scene* scene = nullptr;
     const sobb_status status = sobb_scene_load(source.c_str(), nullptr, &scene);
