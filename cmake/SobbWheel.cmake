@@ -36,3 +36,11 @@ install(CODE [[
     file(COPY_FILE "${file}" "${CMAKE_INSTALL_PREFIX}/lib/${name}")
   endforeach()
 ]] COMPONENT wheel)
+
+# Which commit it was made from, for what is measured with it; nothing without a checkout.
+find_package(Git QUIET)
+if(Git_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --abbrev=40 --dirty=+ --exclude=*
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_FILE ${PROJECT_BINARY_DIR}/commit ERROR_QUIET)
+  install(FILES ${PROJECT_BINARY_DIR}/commit DESTINATION . COMPONENT wheel)
+endif()

@@ -57,6 +57,7 @@ names = sorted(file.name.split(".so")[0] for file in found)
 for start in ("libsobb_scene", "libembree", "libtbbmalloc", "libhwy", "libxxhash"):
     assert any(name.startswith(start) for name in names), names
 assert find_program("sobb_bench").parent == native / "bin"
+assert len((native / "commit").read_text().strip().rstrip("+")) == 40
 print("loaded from the wheel:", *names)
 PYTHON
 venv/bin/python -m sobb info builtin:city:3000 >/dev/null

@@ -69,6 +69,33 @@ def test_table_has_ratios_best_and_means(read):
     assert means["sobb"].cells[3].best
 
 
+def test_refined_scenes_follow_each_other(read):
+    cases = read(scenes=("builtin:city:9",), failures={}).done
+    by_times = [c for c in cases if c.subdivision == 1]
+    made = [
+        dataclasses.replace(c, case_id=f"{c.case_id}-{times}", subdivision=times, triangles=None)
+        for times in (64, 1, 16, 4)
+        for c in by_times
+    ]
+    found = results.Results([], made)
+    shown = [row.scene for row in table.tables(found)[0].rows]
+    assert list(dict.fromkeys(shown)) == ["city", "city ×4", "city ×16", "city ×64"]
+    drawn = [point["scene"] for point in points.points(found)]
+    assert list(dict.fromkeys(drawn)) == ["city", "city ×4", "city ×16", "city ×64"]
+
+
+def test_charts_begin_with_rays_that_all_methods_have(read):
+    found = read(failures={})
+    assert '<option value="diffuse1" selected>' in page.html(found, [])
+    less = [
+        dataclasses.replace(c, figures={k: f for k, f in c.figures.items() if k.rays != "diffuse1"})
+        if c.method == "sobb"
+        else c
+        for c in found.cases
+    ]
+    assert '<option value="primary" selected>' in page.html(results.Results(found.runs, less), [])
+
+
 def test_variants_name_what_varies(read):
     methods = {
         "aabb": made_results.METHODS["aabb"],

@@ -7,7 +7,7 @@ from typing import Any
 
 from sobb.report.method import BASE, Variant, bases, variants
 from sobb.report.results import Case, Key, Results
-from sobb.report.scene import names, titles
+from sobb.report.scene import names, order, titles
 
 Point = dict[str, Any]
 
@@ -19,7 +19,7 @@ def points(results: Results) -> list[Point]:
     return [
         {"scene": title[case.case_id], "curve": curve[case.case_id]}
         | _point(case, named[case.case_id], compared.get(case.case_id), rays, call)
-        for case in sorted(cases, key=lambda case: (title[case.case_id], named[case.case_id]))
+        for case in sorted(cases, key=lambda case: (order(case), named[case.case_id]))
         for rays in results.rays()
         for call in results.calls()
         if case.value(Key("mrays_s", rays, call))

@@ -30,6 +30,11 @@ def titles(cases: Iterable[Case]) -> Mapping[str, str]:
     return {case.case_id: named[case.case_id] + _size(case) for case in cases}
 
 
+def order(case: Case) -> tuple[str, str, int, int]:
+    """Where a case's scene stands among others: refined ones after each other."""
+    return case.name, case.scene, case.subdivision, case.view
+
+
 def _size(case: Case) -> str:
     refined = f" ×{case.subdivision}" if case.subdivision > 1 else ""
     return refined + (f" [{short_count(case.triangles)}]" if case.triangles is not None else "")

@@ -9,7 +9,7 @@ from statistics import geometric_mean
 from sobb.paper.table import Cell, Column, number
 from sobb.report.method import BASE, HIERARCHIES, Variant, bases, place, variants
 from sobb.report.results import Case, Key, Results
-from sobb.report.scene import titles
+from sobb.report.scene import order, titles
 
 # The overhead is the build's beyond that of the AABBs, or what fitting other volumes takes.
 _OVERHEAD = "overhead_ms"
@@ -58,7 +58,7 @@ def _table(results: Results, call: str) -> Table:
         groups.setdefault(place(case), []).append(case)
     columns = [*_OF_BUILD, *speeds]
     rows: list[Row] = []
-    for _, group in sorted(groups.items(), key=lambda item: title[item[1][0].case_id]):
+    for _, group in sorted(groups.items(), key=lambda item: order(item[1][0])):
         cells = _cells(group, columns, call)
         rows += [Row(title[c.case_id], named[c.case_id], cells[c.case_id]) for c in group]
     shown = [i for i in range(len(columns)) if any(row.cells[i].value is not None for row in rows)]

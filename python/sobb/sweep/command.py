@@ -92,14 +92,18 @@ def _processor() -> str:
 
 
 def _git_commit() -> str | None:
-    """The commit of the checkout that this package lies in, with + where it was changed."""
+    """The commit of the checkout that this package lies in or was made from, with + where it was
+    changed."""
+    made_from = Path(__file__).resolve().parents[1] / "native" / "commit"
+    if made_from.is_file():
+        return made_from.read_text().strip() or None
     folder = Path(__file__).resolve().parents[3]
     if not (folder / ".git").exists():
         return None
+    git = ["git", "-C", str(folder), "describe"]
+    options = ["--always", "--abbrev=40", "--dirty=+", "--exclude=*"]
     try:
-        git = ["git", "-C", str(folder)]
-        head = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True)
-        state = subprocess.run([*git, "status", "--porcelain", "-uno"], capture_output=True)
+        described = subprocess.run([*git, *options], capture_output=True, text=True)
     except OSError:
         return None
-    return head.stdout.strip() + ("+" if state.stdout else "") or None
+    return described.stdout.strip() or None
