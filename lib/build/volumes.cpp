@@ -23,7 +23,7 @@ constexpr float kBlockCost = 1.0F;
 // A child, as its parent sees it.
 struct Bounded {
   Kdop kdop;
-  float cost = 0;  // of visiting it, given that a ray meets its volume
+  float cost = 0;  // of its own test: of its node, or of its blocks
   float area = 0;  // in its own best basis, over the squared scene radius; 0 where not needed
   uint16_t basis = kAxesBasis;  // that one
 };
@@ -32,7 +32,7 @@ struct Bounded {
 struct NodeBases {
   uint16_t basis[kMaxWidth];
   bool shared;
-  float cost;  // expected, in units of area: of the node's test and all below
+  float cost;  // of the node's test
 };
 
 class VolumeMaker {
@@ -126,7 +126,7 @@ class VolumeMaker {
     for (uint32_t i = 1; i < wide.child_count; ++i) bounded.kdop.merge(child[i]->kdop);
     find_basis(bounded);
     const NodeBases bases = choose_bases(wide.child_count, child, bounded.area);
-    bounded.cost = bounded.area > 0 ? bases.cost / bounded.area : kFrameCost;
+    bounded.cost = bases.cost;
     for (uint32_t i = 0; i < wide.child_count; ++i) {
       for (int j = 0; j < 3; ++j) {
         const uint32_t direction = basis_direction(bases.basis[i], j);
@@ -144,10 +144,13 @@ class VolumeMaker {
   // The shared basis is that of the least sum of areas. (Of the least sum of costs, rays test some
   // more triangles: docs/study.md.) The surface area heuristic decides between it, the axes for all
   // children, and a basis for each child: area(node) * cost(test) + sum area(child) * cost(child).
+  // What lies below the children is met as often whatever bounds them, so only their own tests
+  // count.
   NodeBases choose_bases(uint32_t count, const Bounded* const* child, float node_area) const {
     NodeBases bases{};
     std::fill(bases.basis, bases.basis + count, kAxesBasis);
     bases.shared = true;
+    bases.cost = kFrameCost;
     if (settings_.volume == SOBB_VOLUME_AABB) return bases;
     Gram gram = {};
     float own = 0;
@@ -156,16 +159,16 @@ class VolumeMaker {
       own += child[i]->area * child[i]->cost;
     }
     const uint16_t least = kernels_.choose(table_, gram, settings_.strategy).basis;
-    const float shared = cost_below(count, child, least);
-    bases.cost = cost_below(count, child, kAxesBasis) + kFrameCost * node_area;
-    if (shared + kSharedCost * node_area < bases.cost) {
-      std::fill(bases.basis, bases.basis + count, least);
-      bases.cost = shared + kSharedCost * node_area;
-    }
-    if (own + kOwnCost * node_area < bases.cost) {
+    const float axes = kFrameCost * node_area + cost_below(count, child, kAxesBasis);
+    const float shared = kSharedCost * node_area + cost_below(count, child, least);
+    own += kOwnCost * node_area;
+    if (own < std::min(axes, shared)) {
       for (uint32_t i = 0; i < count; ++i) bases.basis[i] = child[i]->basis;
-      bases.cost = own + kOwnCost * node_area;
       bases.shared = false;
+      bases.cost = kOwnCost;
+    } else if (shared < axes) {
+      std::fill(bases.basis, bases.basis + count, least);
+      bases.cost = kSharedCost;
     }
     return bases;
   }
