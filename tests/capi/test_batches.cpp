@@ -12,6 +12,7 @@
 
 #include "capi/counting_allocator.h"
 #include "capi/handles.h"
+#include "capi/random_bases.h"
 #include "support/soups.h"
 #include "support/thread_pool.h"
 
@@ -144,7 +145,10 @@ void add_strangers(std::vector<sobb_ray>& rays, Random& random) {
 
 class Batches : public testing::TestWithParam<Case> {
  protected:
-  HierarchyHandle build(const Soup& soup) const { return build_soup(soup, options_of(GetParam())); }
+  HierarchyHandle build(const Soup& soup) const {
+    HierarchyHandle hierarchy = build_soup(soup, options_of(GetParam()));
+    return GetParam().k == 0 ? std::move(hierarchy) : with_random_bases(hierarchy, 30);
+  }
 };
 
 TEST_P(Batches, AgreeAtEveryLength) {

@@ -7,9 +7,11 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/handles.h"
+#include "capi/random_bases.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -104,6 +106,13 @@ std::vector<sobb_ray> shadow_bundles(const Soup& soup, const Light& light, doubl
 
 class Packets : public testing::TestWithParam<uint32_t> {
  protected:
+  HierarchyHandle build(const Soup& soup, uint32_t quality = 0, uint32_t width = 0) {
+    sobb_build_options options = build_options(GetParam(), quality);
+    options.width = width;
+    HierarchyHandle hierarchy = build_soup(soup, options);
+    return GetParam() == SOBB_VOLUME_AABB ? std::move(hierarchy) : with_random_bases(hierarchy, 30);
+  }
+
   // Arrays with the coherent flag, packets and occlusion against rays one by one.
   void expect_agreement(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays,
                         const std::string& what) {
@@ -142,9 +151,7 @@ class Packets : public testing::TestWithParam<uint32_t> {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     for (const uint32_t width : {4U, 8U}) {
-      sobb_build_options options = build_options(GetParam(), SOBB_QUALITY_HIGH);
-      options.width = width;
-      const HierarchyHandle hierarchy = build_soup(soup, options);
+      const HierarchyHandle hierarchy = build(soup, SOBB_QUALITY_HIGH, width);
       for (const Eye& eye : kEyes) {
         for (const double spread : {1e-5, 1e-3, 4e-3, 0.02, 0.2}) {
           std::vector<sobb_ray> rays = bundles(soup, eye, spread, random.bits());
@@ -162,9 +169,7 @@ class Packets : public testing::TestWithParam<uint32_t> {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     for (const uint32_t width : {4U, 8U}) {
-      sobb_build_options options = build_options(GetParam(), SOBB_QUALITY_HIGH);
-      options.width = width;
-      const HierarchyHandle hierarchy = build_soup(soup, options);
+      const HierarchyHandle hierarchy = build(soup, SOBB_QUALITY_HIGH, width);
       for (const Light& light : kLights) {
         for (const double patch : {1e-5, 1e-3, 0.01, 0.1}) {
           std::vector<sobb_ray> rays = shadow_bundles(soup, light, patch, random.bits());
@@ -304,7 +309,7 @@ TEST_P(Packets, AgreeOnShadowsWithStrangersAmongThem) {
 
 TEST_P(Packets, AgreeInArraysOfAnyLength) {
   const Soup soup = random_soup(37, 900, 0.2);
-  const HierarchyHandle hierarchy = build_soup(soup, build_options(GetParam()));
+  const HierarchyHandle hierarchy = build(soup);
   const std::vector<sobb_ray> all = bundles(soup, kEyes[0], 4e-3, 8);
   for (size_t count = 0; count < 140; ++count) {
     expect_agreement(hierarchy, {all.begin(), all.begin() + static_cast<ptrdiff_t>(count)},
@@ -315,7 +320,7 @@ TEST_P(Packets, AgreeInArraysOfAnyLength) {
 
 TEST_P(Packets, AgreeUnderEveryMask) {
   const Soup soup = random_soup(38, 900, 0.2);
-  const HierarchyHandle hierarchy = build_soup(soup, build_options(GetParam()));
+  const HierarchyHandle hierarchy = build(soup);
   std::vector<sobb_ray> rays = bundles(soup, kEyes[0], 4e-3, 9);
   rays.resize(16);
   const std::vector<sobb_hit> expected = trace(hierarchy, rays);

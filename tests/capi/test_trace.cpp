@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "capi/every_call.h"
+#include "capi/random_bases.h"
 
 namespace sobb::test {
 namespace {
@@ -31,10 +32,12 @@ TEST_P(EveryWay, ReturnsTheOraclesBits) {
         options.strategy = 1 + (k / 16 + width / 4 + quality) % 3;
         const HierarchyHandle hierarchy = build_soup(soup, options);
         ASSERT_TRUE(hierarchy);
-        check_calls(hierarchy, rays, expected,
-                    soup.name + " seed " + std::to_string(seed) + " quality " +
-                        std::to_string(quality) + " width " + std::to_string(width) + " k " +
-                        std::to_string(k));
+        const std::string what = soup.name + " seed " + std::to_string(seed) + " quality " +
+                                 std::to_string(quality) + " width " + std::to_string(width) +
+                                 " k " + std::to_string(k);
+        check_calls(hierarchy, rays, expected, what);
+        if (k == 0) continue;
+        check_calls(with_random_bases(hierarchy, seed), rays, expected, what + " random bases");
       }
     }
   }
@@ -49,33 +52,6 @@ INSTANTIATE_TEST_SUITE_P(
                     placed(sliver_soup(9, 500), 1e-3, 7), placed(random_soup(10, 500), 1e-22, 0),
                     placed(random_soup(11, 300), 0x1p59, 0)),
     [](const testing::TestParamInfo<Soup>& info) { return "soup" + std::to_string(info.index); });
-
-// Rays begin without the table, which those that meet a node off the frame then go on with.
-TEST(MixedNodes, ReturnTheOraclesBits) {
-  Soup soup = closed_box(24);
-  const Soup slivers = sliver_soup(12, 3000);
-  for (uint64_t i = 0; i < slivers.indices.size() / 3; ++i) {
-    soup.add(slivers.corner(i, 0), slivers.corner(i, 1), slivers.corner(i, 2));
-  }
-  const uint64_t seed = 20252;
-  const std::vector<sobb_ray> rays = mixed_rays(soup, seed, 3000);
-  const std::vector<sobb_hit> expected = oracle(soup, rays);
-  for (const uint32_t width : {4U, 8U}) {
-    sobb_build_options options = {};
-    options.struct_size = sizeof options;
-    options.width = width;
-    const HierarchyHandle hierarchy = build_soup(soup, options);
-    ASSERT_TRUE(hierarchy);
-    sobb_info info = {};
-    info.struct_size = sizeof info;
-    ASSERT_EQ(sobb_get_info(hierarchy.get(), &info), SOBB_OK);
-    EXPECT_GT(info.axes_nodes, 0U);
-    EXPECT_GT(info.shared_nodes, 0U);
-    EXPECT_GT(info.own_nodes, 0U);
-    check_calls(hierarchy, rays, expected,
-                "seed " + std::to_string(seed) + " width " + std::to_string(width));
-  }
-}
 
 }  // namespace
 }  // namespace sobb::test
