@@ -21,13 +21,14 @@ constexpr double kLeastOverlap = 1e-5;
 
 }  // namespace
 
-void TopologyBuilder::build(Progress& progress, double progress_end) {
+void TopologyBuilder::build(Progress& progress, double progress_begin, double progress_end) {
+  const double progress_of_top = progress_begin + (progress_end - progress_begin) * kTopShare;
   const uint64_t limit = std::max(kSubtreeReferences, build_.count / kSubtreeParts);
   Level level({{bound_all(), kNone, 0}}, &memory_);
   cutting_.least_overlap = level[0].node.extent.box.box().half_area() * kLeastOverlap;
   for (uint32_t depth = 0; !level.empty(); ++depth) {
     // A root's children are half as large, and so on: so many levels are nearly all.
-    progress.check(0, progress_end * kTopShare, std::min(1.0, depth / 10.0));
+    progress.check(progress_begin, progress_of_top, std::min(1.0, depth / 10.0));
     const int from = static_cast<int>(depth % 2);
     Level large(&memory_);
     for (const Open& open : level) {
@@ -49,7 +50,7 @@ void TopologyBuilder::build(Progress& progress, double progress_end) {
   }
   std::atomic<uint64_t> done{0};
   scheduler_.for_each(subtrees_.size(), [&](uint64_t i) {
-    progress.check(progress_end * kTopShare, progress_end,
+    progress.check(progress_of_top, progress_end,
                    static_cast<double>(done) / static_cast<double>(subtrees_.size()));
     kernels_.build(subtrees_[i]);
     ++done;

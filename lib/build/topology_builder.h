@@ -36,8 +36,8 @@ class TopologyBuilder {
         top_(&memory),
         subtrees_(&memory) {}
 
-  // Makes all nodes; the references are spent. Progress runs to `progress_end`.
-  void build(Progress& progress, double progress_end);
+  // Makes all nodes; the references are spent.
+  void build(Progress& progress, double progress_begin, double progress_end);
 
   // Collects them, depth first.
   Array<NodePair> collect(TopologyNode& root) const;

@@ -177,15 +177,15 @@ typedef struct sobb_hierarchy sobb_hierarchy; /**< immutable, reference-counted 
 typedef enum sobb_volume {
   SOBB_VOLUME_DEFAULT = 0, /**< SOBB */
   SOBB_VOLUME_AABB = 1,    /**< axis-aligned boxes, for comparison: same nodes, own kernel */
-  SOBB_VOLUME_SOBB = 2     /**< skewed oriented boxes from a table of k/2 directions */
+  SOBB_VOLUME_SOBB = 2     /**< skewed oriented boxes of k/2 directions, where they pay */
 } sobb_volume;
 
 /** The topology builder's effort. */
 typedef enum sobb_quality {
   SOBB_QUALITY_DEFAULT = 0, /**< medium */
   SOBB_QUALITY_LOW = 1,     /**< Morton order, by Embree */
-  SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic, the library's own builder */
-  SOBB_QUALITY_HIGH = 3     /**< with spatial splits: more references, faster rays */
+  SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic, then a little reinsertion */
+  SOBB_QUALITY_HIGH = 3     /**< with spatial splits or without, whichever is cheaper; more of it */
 } sobb_quality;
 
 /** How a basis is chosen among the k/2 directions (EG25, section 4). */
