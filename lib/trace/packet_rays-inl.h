@@ -28,6 +28,7 @@
 #include <bit>
 
 #include "trace/mask_bits-inl.h"
+#include "trace/ray_vectors-inl.h"
 #include "trace/scaled_ray.h"
 #include "trace/triangle_test.h"
 
@@ -37,9 +38,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-using RayFloats = hn::CappedTag<float, 8>;
-using RayWords = hn::RebindToUnsigned<RayFloats>;
 
 constexpr int kPacketLanes = 8;
 constexpr int kAllLanes = kPacketLanes;  // index of what is of the whole packet, behind the lanes

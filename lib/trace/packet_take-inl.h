@@ -104,28 +104,20 @@ class PacketTaker {
   HWY_INLINE uint64_t load(const sobb_ray* rays, size_t i) {
     const RayFloats d;
     const auto largest = hn::Set(d, FLT_MAX);
-    // Half as many rays at once: origins in even lanes, directions in odd ones.
-    V a[4];
-    V b[4];
-    const float* at = rays[i].origin;
-    hn::LoadInterleaved4(d, at, a[0], a[1], a[2], a[3]);
-    hn::LoadInterleaved4(d, at + 4 * kStep, b[0], b[1], b[2], b[3]);
+    const RayVectors some(rays + i);
     V size[3];
-    auto fits = hn::Eq(hn::Zero(d), hn::Zero(d));
+    auto fits = hn::And(hn::Ge(some.tmin, hn::Zero(d)), hn::Eq(some.tmax, some.tmax));
     for (int k = 0; k < 3; ++k) {
-      const auto o = hn::ConcatEven(d, b[k], a[k]);
-      const auto v = hn::ConcatOdd(d, b[k], a[k]);
-      if (!kOwnOrigins || !packet_.meeting.backward) fits = hn::And(fits, begins_there(o, k));
-      if (kOwnOrigins) hn::Store(o, d, origin_[k] + i);
-      hn::Store(v, d, direction_[k] + i);
-      size[k] = hn::Abs(v);
+      if (!kOwnOrigins || !packet_.meeting.backward) {
+        fits = hn::And(fits, begins_there(some.origin[k], k));
+      }
+      if (kOwnOrigins) hn::Store(some.origin[k], d, origin_[k] + i);
+      hn::Store(some.direction[k], d, direction_[k] + i);
+      size[k] = hn::Abs(some.direction[k]);
       fits = hn::And(fits, hn::Le(size[k], largest));
     }
-    const auto t0 = hn::ConcatEven(d, b[3], a[3]);
-    const auto t1 = hn::ConcatOdd(d, b[3], a[3]);
-    hn::Store(t0, d, packet_.tmin + i);
-    hn::Store(hn::Min(t1, largest), d, packet_.limit + i);
-    fits = hn::And(fits, hn::And(hn::Ge(t0, hn::Zero(d)), hn::Eq(t1, t1)));
+    hn::Store(some.tmin, d, packet_.tmin + i);
+    hn::Store(hn::Min(some.tmax, largest), d, packet_.limit + i);
     fits = hn::And(fits, goes_along(size, i));
     if (kOwnOrigins && packet_.meeting.backward) fits = hn::And(fits, ends_there(i));
     return mask_bits(d, fits);
@@ -145,10 +137,7 @@ class PacketTaker {
     const auto along = hn::Mul(hn::Load(d, direction_[axis] + i), hn::Set(d, packet_.sign));
     const auto forward =
         packet_.meeting.backward ? hn::Lt(along, hn::Zero(d)) : hn::Gt(along, hn::Zero(d));
-    const auto x_y = hn::Ge(size[0], size[1]);
-    const auto x_z = hn::And(x_y, hn::Ge(size[0], size[2]));
-    const auto y_z = hn::AndNot(x_y, hn::Ge(size[1], size[2]));
-    return hn::And(forward, axis == 0 ? x_z : axis == 1 ? y_z : hn::Not(hn::Or(x_z, y_z)));
+    return hn::And(forward, LargestAxis(size).is(axis));
   }
 
   // Whether rays pierce the focus' plane near the focus and end there at the latest.

@@ -31,6 +31,13 @@ struct ScaledRay {
   float reach;  // at least the distance from the origin to any vertex
   float error;  // e, how far slabs are widened for this ray (ray_table-inl.h)
 
+  // Directions whose largest component is between the inverse of it and it are left as they are.
+  static constexpr float kLongest = 0x1p20F;
+  static constexpr float kRelativeError = 16 * 0x1p-24F;
+  static constexpr float kLeastError = 0x1p-100F;
+  // Beyond this the products of the slab test could overflow.
+  static constexpr float kFurthest = 0x1p62F;
+
   HWY_INLINE ScaledRay(const TraceScene& scene, const sobb_ray& ray) : scale(1) {
     float largest = 0;
     float distance = 0;  // the sum of magnitudes is at least the length
@@ -42,7 +49,7 @@ struct ScaledRay {
     }
     tmin = std::max(ray.tmin - kSmallestFloat, 0.0F);
     reach = distance + scene.radius;
-    error = 16 * 0x1p-24F * (distance + reach) + 0x1p-100F;
+    error = kRelativeError * (distance + reach) + kLeastError;
     if (!(largest >= 1 / kLongest && largest <= kLongest)) [[unlikely]]
       rescale(largest);
     if (!(distance <= kFurthest)) [[unlikely]]
@@ -50,11 +57,6 @@ struct ScaledRay {
   }
 
  private:
-  // Between the inverse of it and it directions are left as they are.
-  static constexpr float kLongest = 0x1p20F;
-  // Beyond this the products of the slab test could overflow.
-  static constexpr float kFurthest = 0x1p62F;
-
   void rescale(float largest) {
     // A float is a normal double: its exponent is in the bits.
     const uint64_t exponent = std::bit_cast<uint64_t>(static_cast<double>(largest)) >> 52;

@@ -18,6 +18,7 @@
 
 #include "trace/file_volumes-inl.h"
 #include "trace/single-inl.h"
+#include "trace/stream_fill-inl.h"
 #include "trace/stream_node-inl.h"
 #include "trace/trace_rays-inl.h"
 
@@ -71,14 +72,17 @@ class StreamTracer {
   // Visits what is next. Returns whether there is more.
   HWY_INLINE bool step(Stream& stream) {
     const StreamItem& item = stream.item[--stream.top];
+    const bool stale = stream.top < stream.stale;
+    if (stale) stream.stale = stream.top;
     const StackKey key = item.key;
     const uint32_t begin = item.begin;
     const uint32_t count = item.count;
     if (count != 0) {
-      visit_list(stream, key, begin, count);
+      visit_list(stream, key, begin, count, stale);
     } else if (entry_distance(begin) <= batch_.limit[entry_ray(begin)]) {
       if (key_is_leaf(key)) {
         test_triangles(key, entry_ray(begin));
+        stream.stale = stream.top;
       } else {
         const RayEntry one = begin;
         visit_node(stream, nodes_[key_index(key)], &one, 1, 0);
@@ -98,12 +102,14 @@ class StreamTracer {
     }
   }
 
-  HWY_INLINE void visit_list(Stream& stream, StackKey key, uint32_t begin, uint32_t count) {
+  HWY_INLINE void visit_list(Stream& stream, StackKey key, uint32_t begin, uint32_t count,
+                             bool stale) {
     RayEntry* list = stream.arena + begin;
-    const uint32_t open = keep_open(list, count, batch_.limit);
+    const uint32_t open = stale ? keep_open(list, count, batch_.limit) : count;
     if (open == 0) return;
     if (key_is_leaf(key)) {
       for (uint32_t i = 0; i < open; ++i) test_triangles(key, entry_ray(list[i]));
+      stream.stale = stream.top;
       return;
     }
     // The children's lists may be kWidth times as long. Where there is no room for that, the rest
@@ -221,26 +227,8 @@ inline void begin_streams(const uint32_t (&count)[kOctants], StreamBatch& batch)
     std::copy_n(batch.list[octant], count[octant], stream.arena);
     stream.item[0] = {kRootKey, 0, count[octant]};
     stream.top = count[octant] == 0 ? 0 : 1;
+    stream.stale = 0;
   }
-}
-
-// Makes the batch of the valid rays. Returns how many of each octant there are, in its lists.
-template <class Result>
-HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
-                               Result* results, StreamBatch& batch,
-                               uint32_t (&octant_count)[kOctants]) {
-  uint32_t invalid = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    if (!is_valid(rays[i])) {
-      store_invalid(results[i]);
-      ++invalid;
-      continue;
-    }
-    batch.set(scene, rays[i], i);
-    const uint32_t octant = batch.ray[i].octant();
-    batch.list[octant][octant_count[octant]++] = i;
-  }
-  return invalid;
 }
 
 // At most kBatchRays of them. Returns how many were not valid; `scattered` receives whether rays
@@ -268,7 +256,7 @@ uint64_t trace_stream(const TraceScene& scene, const sobb_ray* rays, uint32_t co
   }
   scattered = tracer.visits_alone() > kMostAlone * count;
   for (uint32_t i = 0; i < count; ++i) {
-    if (is_valid(rays[i])) store(batch.best(i), results[i]);
+    if (invalid == 0 || is_valid(rays[i])) store(batch.best(i), results[i]);
   }
   return invalid;
 }

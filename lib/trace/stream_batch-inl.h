@@ -32,21 +32,14 @@ inline constexpr uint32_t kMostChildren = 8;
 // What node tests read of a ray: the first three directions' coefficients (ray_table-inl.h), and
 // what those of other directions are made of.
 struct alignas(64) StreamRay {
-  float reciprocal[4];
-  float near[4];
-  float far[4];
-  float origin[3];
+  float reciprocal[3];
   float tmin;
-  float direction[3];
-  float error;
+  float near[3];
   float scale;
-
-  // The signs of the first three directions' cosines, which say which planes are the near ones.
-  uint32_t octant() const {
-    uint32_t bits = 0;
-    for (int k = 0; k < 3; ++k) bits |= std::bit_cast<uint32_t>(reciprocal[k]) >> 31 << k;
-    return bits;
-  }
+  float far[3];
+  float error;
+  float origin[4];
+  float direction[4];
 };
 
 // Something to visit: a node or leaf, and the rays that meet it; or one ray, which needs no list.
@@ -65,7 +58,8 @@ struct Stream {
   RayEntry* arena;    // the lists of the items, one after another
   uint32_t capacity;  // of the arena
   uint32_t octant;
-  uint32_t top;  // of the items
+  uint32_t top;    // of the items
+  uint32_t stale;  // the items below were pushed before rays last found hits
   StreamItem item[kMaxItems];
 };
 
@@ -90,31 +84,6 @@ struct StreamBatch {
     return *std::launder(reinterpret_cast<BlockRay*>(block_rays[i]));
   }
   ClosestHit& best(uint32_t i) { return *std::launder(reinterpret_cast<ClosestHit*>(hits[i])); }
-
-  void set(const TraceScene& scene, const sobb_ray& from, uint32_t i) {
-    new (hits[i]) ClosestHit(from);
-    new (block_rays[i]) BlockRay(from);
-    const ScaledRay scaled(scene, from);
-    limit[i] = scale_limit(best(i).limit, scaled.scale);
-    StreamRay& to = ray[i];
-    const hn::CappedTag<float, 4> d;
-    const DirectionTable& directions = scene.directions;
-    const auto c = slab_coefficients(
-        d, hn::Load(d, directions.x), hn::Load(d, directions.y), hn::Load(d, directions.z),
-        hn::Set(d, scaled.origin[0]), hn::Set(d, scaled.origin[1]), hn::Set(d, scaled.origin[2]),
-        hn::Set(d, scaled.direction[0]), hn::Set(d, scaled.direction[1]),
-        hn::Set(d, scaled.direction[2]), hn::Set(d, scaled.error));
-    hn::Store(c.reciprocal, d, to.reciprocal);
-    hn::Store(c.near, d, to.near);
-    hn::Store(c.far, d, to.far);
-    for (int k = 0; k < 3; ++k) {
-      to.origin[k] = scaled.origin[k];
-      to.direction[k] = scaled.direction[k];
-    }
-    to.tmin = scaled.tmin;
-    to.error = scaled.error;
-    to.scale = scaled.scale;
-  }
 
   // After a hit was taken.
   template <Query kQuery>

@@ -32,7 +32,8 @@ enum class Query { kClosest, kAny };
 // A ray before the triangles of a block.
 class BlockRay {
  public:
-  explicit BlockRay(const sobb_ray& ray) : ray_(ray), tmin_(ray.tmin) {}
+  explicit BlockRay(const sobb_ray& ray) : BlockRay(TriangleRay(ray), ray.tmin) {}
+  BlockRay(const TriangleRay& ray, float tmin) : ray_(ray), tmin_(tmin) {}
 
   // Offers the block's hits to `best`. Returns whether it took one.
   template <Query kQuery>

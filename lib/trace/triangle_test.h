@@ -42,13 +42,14 @@ struct TriangleRay {
   double shear_y;
   double direction_z;
 
+  static constexpr int kNext[3] = {1, 2, 0};
+
   HWY_INLINE explicit TriangleRay(const sobb_ray& ray) {
     const float x = std::fabs(ray.direction[0]);
     const float y = std::fabs(ray.direction[1]);
     const float z = std::fabs(ray.direction[2]);
     // Looked up, since rays' directions are not to be predicted.
     static constexpr int kLargest[8] = {2, 2, 2, 0, 1, 2, 1, 0};
-    static constexpr int kNext[3] = {1, 2, 0};
     axis[2] = kLargest[(x >= y ? 1 : 0) | (x >= z ? 2 : 0) | (y >= z ? 4 : 0)];
     axis[0] = kNext[axis[2]];
     axis[1] = kNext[axis[0]];
@@ -57,6 +58,14 @@ struct TriangleRay {
     shear_x = ray.direction[axis[0]] / direction_z;
     shear_y = ray.direction[axis[1]] / direction_z;
   }
+
+  // Of what was found so already: the last axis, and the rest along the permuted ones.
+  HWY_INLINE TriangleRay(int largest, const double (&from)[3], const double (&shear)[2], double dz)
+      : axis{kNext[largest], kNext[kNext[largest]], largest},
+        origin{from[0], from[1], from[2]},
+        shear_x(shear[0]),
+        shear_y(shear[1]),
+        direction_z(dz) {}
 };
 
 struct TriangleHit {
