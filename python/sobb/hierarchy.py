@@ -26,6 +26,8 @@ class Hierarchy:
     """
 
     def __init__(self, handle: Handle):
+        if not isinstance(handle, Handle):
+            raise TypeError("a Hierarchy is made by build(), open() or from_bytes()")
         self._handle: Handle | None = handle
 
     @classmethod

@@ -30,6 +30,8 @@ class Scene:
     """An immutable scene. Made by Scene.load(); a context manager that closes it."""
 
     def __init__(self, handle: Handle):
+        if not isinstance(handle, Handle):
+            raise TypeError("a Scene is made by Scene.load()")
         self._handle: Handle | None = handle
 
     @classmethod

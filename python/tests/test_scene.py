@@ -85,6 +85,12 @@ def test_arrays_outlive_the_scene():
     np.testing.assert_array_equal(row, copies[0][5])
 
 
+def test_a_name_is_no_scene():
+    for made in (sobb.Scene, sobb.Hierarchy):
+        with pytest.raises(TypeError, match="is made by"):
+            made("builtin:city")
+
+
 def test_closed():
     scene = sobb.Scene.load("builtin:city:2000")
     scene.close()
