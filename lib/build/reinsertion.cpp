@@ -22,6 +22,14 @@ struct Move {
   double gain;  // half the area that inner nodes lose
 };
 
+// For the best one of a node.
+struct Search {
+  const Box& box;  // the node's
+  double own;      // half its area: the least that a new parent has
+  Move best;
+  uint32_t pairs_left;  // to be looked at
+};
+
 double half_area_of_both(const Box& a, const Box& b) {
   Box both = a;
   both.grow(b);
@@ -47,10 +55,11 @@ class Reinserter {
     });
   }
 
-  void round(double share) {
+  void round(double share, ProgressStage& stage) {
     const std::pmr::vector<Place> places = largest(share);
     std::pmr::vector<Move> moves(places.size(), &memory_);
     scheduler_.for_ranges(places.size(), kGrain, [&](uint64_t begin, uint64_t end) {
+      stage.advance(0);
       for (uint64_t i = begin; i < end; ++i) moves[i] = best_move(places[i]);
     });
     std::erase_if(moves, [](const Move& move) { return move.to == kNowhere; });
@@ -70,6 +79,9 @@ class Reinserter {
   static constexpr uint64_t kGrain = 1024;
   // Smaller moves, by the root's area, are not worth a look.
   static constexpr double kLeastGain = 1e-7;
+  // A node looks at so many at most, so that no scene takes time without bound. (Of the scenes
+  // tried the trees are the same without.)
+  static constexpr uint32_t kMostPairs = 1 << 14;
   // About as many nodes at most tell how large the largest are.
   static constexpr size_t kSample = 1 << 14;
 
@@ -106,54 +118,50 @@ class Reinserter {
   // Where a node gains most. Without it its parent goes, and its ancestors shrink up to the one
   // that it comes to lie under again; there, those between grow, and it has a new parent.
   Move best_move(Place from) const {
-    const Box& box = at(from).box;
-    Move best = {from, kNowhere, least_gain_};
+    Search search = {
+        at(from).box, at(from).box.half_area(), {from, kNowhere, least_gain_}, kMostPairs};
     Place pivot = parent(from);
     Box rest = at(sibling(from)).box;  // what the pivot keeps
     double gain = at(pivot).box.half_area();
     // Its sibling, with the node below it again, would be as large as the parent is.
-    if (!at(sibling(from)).is_leaf) search(at(sibling(from)).first, box, rest.half_area(), best);
+    if (!at(sibling(from)).is_leaf) look_below(at(sibling(from)), rest.half_area(), search);
     while (pivot != kRoot) {
       const Place beside = sibling(pivot);
-      offer(beside, box, gain, best);
+      const double below = offer(beside, gain, search);
+      if (!at(beside).is_leaf) look_below(at(beside), below, search);
       rest.grow(at(beside).box);
       pivot = parent(pivot);
       gain += at(pivot).box.half_area() - rest.half_area();
     }
-    return best;
+    return search.best;
   }
 
-  // As the sibling of a node, or of one below it. `gain` is what is gained above the new parent.
-  void offer(Place place, const Box& box, double gain, Move& best) const {
-    const TopologyNode& node = at(place);
-    const double both = half_area_of_both(node.box, box);
-    if (gain - both > best.gain) best = {best.from, place, gain - both};
-    const double below = gain - (both - node.box.half_area());
-    if (!node.is_leaf && below - box.half_area() > best.gain) search(node.first, box, below, best);
+  // As the sibling of a node. `gain` is what is gained above the new parent; returns it for one
+  // below the node, which then grows.
+  double offer(Place place, double gain, Search& search) const {
+    const Box& box = at(place).box;
+    const double both = half_area_of_both(box, search.box);
+    if (gain - both > search.best.gain) search.best = {search.best.from, place, gain - both};
+    return gain - (both - box.half_area());
   }
 
-  // The same of a pair and all below it, as long as the new parent may be small enough.
-  void search(uint32_t pair, const Box& box, double gain, Move& best) const {
+  // As the sibling of one below a node, wherever the new parent may be small enough.
+  void look_below(const TopologyNode& node, double gain, Search& search) const {
     struct Open {
       uint32_t pair;
       double gain;
     };
     Open stack[2 * kMaxDepth];
     uint32_t top = 0;
-    stack[top++] = {pair, gain};
-    const double own = box.half_area();
-    while (top != 0) {
+    stack[top++] = {node.first, gain};
+    while (top != 0 && search.pairs_left != 0) {
       const Open open = stack[--top];
-      if (open.gain - own <= best.gain) continue;
+      if (open.gain - search.own <= search.best.gain) continue;
+      --search.pairs_left;
       for (uint32_t side = 0; side < 2; ++side) {
-        const TopologyNode& node = pairs_[open.pair].child[side];
-        const double both = half_area_of_both(node.box, box);
-        if (open.gain - both > best.gain) {
-          best = {best.from, 2 * open.pair + side, open.gain - both};
-        }
-        const double below = open.gain - (both - node.box.half_area());
-        if (node.is_leaf || below - own <= best.gain || top == 2 * kMaxDepth) continue;
-        stack[top++] = {node.first, below};
+        const Place place = 2 * open.pair + side;
+        const double below = offer(place, open.gain, search);
+        if (!at(place).is_leaf && top < 2 * kMaxDepth) stack[top++] = {at(place).first, below};
       }
     }
   }
@@ -257,10 +265,13 @@ class Reinserter {
 }  // namespace
 
 void reinsert(BinaryNodes& nodes, const ReinsertionEffort& effort, const Scheduler& scheduler,
-              Memory& memory) {
+              Memory& memory, ProgressStage& stage) {
   if (nodes.root.is_leaf) return;
   Reinserter reinserter(nodes, scheduler, memory);
-  for (uint32_t i = 0; i < effort.rounds; ++i) reinserter.round(effort.share);
+  for (uint32_t i = 0; i < effort.rounds; ++i) {
+    reinserter.round(effort.share, stage);
+    stage.advance(1);
+  }
   reinserter.finish();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/memory.h"
+#include "base/progress.h"
 #include "base/scheduler.h"
 #include "build/topology.h"
 
@@ -16,8 +17,8 @@ struct ReinsertionEffort {
 };
 
 // Lowers the sum of inner nodes' areas; leaves stay as they are. Pairs lie depth first before and
-// after. The same for any number of threads.
+// after. The same for any number of threads. Reports to `stage`, of as many items as rounds.
 void reinsert(BinaryNodes& nodes, const ReinsertionEffort& effort, const Scheduler& scheduler,
-              Memory& memory);
+              Memory& memory, ProgressStage& stage);
 
 }  // namespace sobb

@@ -79,14 +79,18 @@ BinaryNodes topology_of(sobb_quality quality, const Mesh& mesh, const Scheduler&
     return embree_topology(mesh, scheduler, memory, progress, progress_end, frame);
   }
   const bool high = quality == SOBB_QUALITY_HIGH;
-  const double half = high ? progress_end * 0.35 : progress_end;
-  BinaryNodes nodes = own_topology(mesh, false, scheduler, memory, progress, {0, half}, frame, isa);
+  const ReinsertionEffort& effort = high ? kHighEffort : kMediumEffort;
+  const double whole_end = progress_end * (high ? 0.2 : 0.95);
+  const double split_end = progress_end * (high ? 0.8 : 0.95);
+  BinaryNodes nodes =
+      own_topology(mesh, false, scheduler, memory, progress, {0, whole_end}, frame, isa);
   if (high) {
     BinaryNodes split =
-        own_topology(mesh, true, scheduler, memory, progress, {half, progress_end}, frame, isa);
+        own_topology(mesh, true, scheduler, memory, progress, {whole_end, split_end}, frame, isa);
     if (cost_of(split) < kSplitsAdvantage * cost_of(nodes)) nodes = std::move(split);
   }
-  reinsert(nodes, high ? kHighEffort : kMediumEffort, scheduler, memory);
+  ProgressStage stage(progress, split_end, progress_end, effort.rounds);
+  reinsert(nodes, effort, scheduler, memory, stage);
   return nodes;
 }
 

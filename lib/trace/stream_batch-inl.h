@@ -38,7 +38,7 @@ struct alignas(64) StreamRay {
   float scale;
   float far[3];
   float error;
-  float origin[4];
+  float origin[4];  // the fourth is void, here and below
   float direction[4];
 };
 

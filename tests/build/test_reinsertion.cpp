@@ -104,7 +104,9 @@ class Reinsertion : public testing::Test {
     return TreeMaker(leaves, chain, memory_).make();
   }
   void reinsert(BinaryNodes& nodes, uint32_t threads = 1, ReinsertionEffort effort = kAll) {
-    sobb::reinsert(nodes, effort, Scheduler(threads, nullptr), memory_);
+    Progress progress(nullptr, nullptr);
+    ProgressStage stage(progress, 0, 1, effort.rounds);
+    sobb::reinsert(nodes, effort, Scheduler(threads, nullptr), memory_, stage);
   }
 
   Memory memory_;
