@@ -266,7 +266,7 @@ class Reinserter {
 
 void reinsert(BinaryNodes& nodes, const ReinsertionEffort& effort, const Scheduler& scheduler,
               Memory& memory, ProgressStage& stage) {
-  if (nodes.root.is_leaf) return;
+  if (nodes.root.is_leaf || nodes.pairs.size() >= kNowhere / 2) return;
   Reinserter reinserter(nodes, scheduler, memory);
   for (uint32_t i = 0; i < effort.rounds; ++i) {
     reinserter.round(effort.share, stage);
