@@ -21,14 +21,13 @@ constexpr float kLargest = 0x1p60F;
 using llu = unsigned long long;
 
 void check_coordinate(float value, char axis, uint32_t vertex, uint64_t triangle) {
+  if (std::fabs(value) <= kLargest) return;
   if (!(std::fabs(value) <= FLT_MAX)) {
     fail(SOBB_ERROR_NOT_FINITE, "triangle %llu: %c of vertex %u is %g", static_cast<llu>(triangle),
          axis, vertex, value);
   }
-  if (std::fabs(value) > kLargest) {
-    fail(SOBB_ERROR_TOO_LARGE, "triangle %llu: %c of vertex %u is %g, beyond 2^60",
-         static_cast<llu>(triangle), axis, vertex, value);
-  }
+  fail(SOBB_ERROR_TOO_LARGE, "triangle %llu: %c of vertex %u is %g, beyond 2^60",
+       static_cast<llu>(triangle), axis, vertex, value);
 }
 
 // Part of a summary, of one range of triangles.
@@ -51,24 +50,36 @@ bool is_degenerate(const Point corner[3]) {
   return ay * bz == az * by && az * bx == ax * bz && ax * by == ay * bx;
 }
 
+// A triangle as the hash reads it.
+struct HashedTriangle {
+  Point corner[3];
+  uint32_t index[3];
+};
+static_assert(sizeof(HashedTriangle) == 12 * sizeof(float));
+// A call of the hash costs more than what it does for one of them.
+constexpr uint64_t kHashedTogether = 64;
+
 Part summarise_range(const Mesh& mesh, uint64_t begin, uint64_t end) {
   Part part;
   XXH3_state_t state;
   XXH3_64bits_reset(&state);
-  for (uint64_t triangle = begin; triangle < end; ++triangle) {
-    Point corner[3];
-    uint32_t index[3];
-    for (int i = 0; i < 3; ++i) {
-      corner[i] = mesh.corner(triangle, i);
-      index[i] = mesh.index(triangle, i);
-      part.lower = {std::min(part.lower.x, corner[i].x), std::min(part.lower.y, corner[i].y),
-                    std::min(part.lower.z, corner[i].z)};
-      part.upper = {std::max(part.upper.x, corner[i].x), std::max(part.upper.y, corner[i].y),
-                    std::max(part.upper.z, corner[i].z)};
+  for (uint64_t first = begin; first < end; first += kHashedTogether) {
+    const uint64_t count = std::min(kHashedTogether, end - first);
+    HashedTriangle triangles[kHashedTogether];
+    for (uint64_t i = 0; i < count; ++i) {
+      HashedTriangle& triangle = triangles[i];
+      for (int j = 0; j < 3; ++j) {
+        const Point corner = mesh.corner(first + i, j);
+        triangle.corner[j] = corner;
+        triangle.index[j] = mesh.index(first + i, j);
+        part.lower = {std::min(part.lower.x, corner.x), std::min(part.lower.y, corner.y),
+                      std::min(part.lower.z, corner.z)};
+        part.upper = {std::max(part.upper.x, corner.x), std::max(part.upper.y, corner.y),
+                      std::max(part.upper.z, corner.z)};
+      }
+      part.degenerate_count += is_degenerate(triangle.corner);
     }
-    part.degenerate_count += is_degenerate(corner);
-    XXH3_64bits_update(&state, corner, sizeof corner);
-    XXH3_64bits_update(&state, index, sizeof index);
+    XXH3_64bits_update(&state, triangles, count * sizeof(HashedTriangle));
   }
   part.hash = XXH3_64bits_digest(&state);
   return part;

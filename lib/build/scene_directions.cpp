@@ -13,10 +13,10 @@ namespace sobb {
 namespace {
 
 // So many triangles tell a scene's directions as well as ten million.
-constexpr uint64_t kMostSamples = 1 << 15;
+constexpr uint64_t kMostSamples = 1 << 14;
 // A range of samples has its own sums, which are added up in order: the result depends on the
 // ranges, not on who does them.
-constexpr uint64_t kGrain = 1 << 12;
+constexpr uint64_t kGrain = 1 << 11;
 
 // A peak has this share of the whole area or length: 16 times what it would have of directions
 // spread evenly.

@@ -14,7 +14,7 @@
 namespace sobb {
 
 // k/2 directions, the first three perpendicular; the default ones where no frame is better than the
-// axes. From 32,768 of the triangles at most, in parallel, the same for any number of threads.
+// axes. From 16,384 of the triangles at most, in parallel, the same for any number of threads.
 std::pmr::vector<Direction> scene_directions(const Mesh& mesh, uint32_t k,
                                              const Scheduler& scheduler,
                                              std::pmr::memory_resource& memory);

@@ -20,11 +20,15 @@ constexpr float kFrameCost = 1.0F;
 constexpr float kSharedCost = 1.8F;
 constexpr float kOwnCost = 2.0F;
 constexpr float kBlockCost = 1.0F;
-// Of the table that a ray makes when it first meets other directions. (From 0.92 to 1.63 no scene
-// tried is decided otherwise: savings are below a tenth of an average ray's cost, or worth it.)
+// Of the table that a ray makes when it first meets other directions. (From 0.7 to 1.2 no scene
+// tried is decided otherwise.)
 constexpr float kTableCost = 1.0F;
-// As many subtrees, or up to twice as many, tell whether other directions pay.
-constexpr size_t kSampledSubtrees = 32;
+// Beyond that, other directions must save this share of what nodes cost: less is not worth the time
+// to choose them, a tenth to a quarter of a build. (Crown saves 0.1 %, a robot 4 %.)
+constexpr float kLeastShare = 0.02F;
+// What they save is told by some so many nodes, in subtrees of at most so many.
+constexpr uint64_t kSampledNodes = 2048;
+constexpr uint32_t kSmallSubtree = 8;
 // The most area that a box in a sphere of radius 1 has: a cube's.
 constexpr float kMostSceneArea = 8.0F;
 
@@ -34,18 +38,29 @@ struct Bounded {
   float cost = 0;  // of its own test: of its node, or of its blocks
   float area = 0;  // in its own best basis, over the squared scene radius; 0 where not needed
   uint16_t basis = kAxesBasis;  // that one
-  // Sums over all nodes from here down: what other directions than the frame's save, cost times
-  // area, and the area of the nodes that have them.
-  float saved = 0;
-  float off_frame = 0;
 };
 
 // How the children of a node are bounded.
 struct NodeBases {
   uint16_t basis[kMaxWidth];
   bool shared;
-  float cost;   // of the node's test
-  float saved;  // of cost times area, over all children along the frame
+  float cost;  // of the node's test
+  // Cost times area of node and children, and with all of them along the frame.
+  float chosen;
+  float along_frame;
+};
+
+// What other directions than the frame's bring some nodes, cost times area.
+struct Saving {
+  float along_frame = 0;  // what the nodes and their children cost without
+  float saved = 0;
+  float off_frame = 0;  // the area of the nodes that have others
+
+  void add(const Saving& other) {
+    along_frame += other.along_frame;
+    saved += other.saved;
+    off_frame += other.off_frame;
+  }
 };
 
 class VolumeMaker {
@@ -63,9 +78,38 @@ class VolumeMaker {
         table_(parts.directions, memory),
         scale_(parts.header->radius > 0 ? 1 / parts.header->radius : 1) {}
 
+  bool chooses_bases() const { return settings_.volume != SOBB_VOLUME_AABB; }
+
+  // From now on all bases are the frame, the first three directions.
+  void keep_to_frame() {
+    settings_.volume = SOBB_VOLUME_AABB;
+    directions_ = make_direction_table(parts_.directions.first(3));
+  }
+
+  // Looks at every `stride`-th of a part's small subtrees, from the `skipped`-th on. Not of the
+  // top, where there are subtrees below it.
+  Saving look_at(const Part& part, uint64_t stride, uint64_t skipped,
+                 std::pmr::memory_resource& memory) const {
+    std::pmr::vector<uint32_t> size(part.nodes.size(), 1, &memory);  // nodes from there down
+    for (size_t at = part.nodes.size(); at-- > 0;) {
+      for_each_inner(part, at, [&](size_t child) { size[at] += size[child]; });
+    }
+    Saving saving;
+    const auto look_if = [&](size_t at) {
+      if (size[at] > kSmallSubtree || skipped++ % stride != 0) return;
+      Bounded root;
+      look_below(part, at, root, saving);
+    };
+    look_if(0);
+    for (size_t at = 0; at < part.nodes.size(); ++at) {
+      if (size[at] > kSmallSubtree) for_each_inner(part, at, look_if);
+    }
+    return saving;
+  }
+
   // Makes a part's nodes and blocks, last to first, so that children come before their parent.
-  // `bounded` has what is known of the part's nodes' children: by node, and by place for the
-  // subtrees below the top. Returns the root's.
+  // subtree_of(node, child) is what is known of a subtree below the top, null for a child within
+  // the part. Returns the root's.
   template <int W, class ChildOf>
   Bounded make_part(const Part& part, std::pmr::memory_resource& memory,
                     const ChildOf& subtree_of) const {
@@ -78,25 +122,20 @@ class VolumeMaker {
       const Bounded* child[kMaxWidth] = {};
       for (uint32_t i = 0; i < wide.child_count; ++i) {
         if (wide.is_leaf(i)) {
-          make_leaf(references_.part(wide.first[i], wide.count[i]), wide.index[i], leaf[i]);
+          const References references = references_.part(wide.first[i], wide.count[i]);
+          bound_leaf(references, leaf[i]);
+          fill_blocks(references, wide.index[i]);
           child[i] = &leaf[i];
         } else {
           const Bounded* below = subtree_of(static_cast<uint32_t>(at), i);
           child[i] = below != nullptr ? below : &bounded[wide.index[i] - part.first_node];
         }
       }
+      const NodeBases bases = bound_node(wide.child_count, child, bounded[at]);
       nodes[part.first_node + at] = {};
-      make_node(wide, child, nodes[part.first_node + at], bounded[at]);
+      fill_node(wide, child, bases, nodes[part.first_node + at]);
     }
     return bounded[0];
-  }
-
-  bool chooses_bases() const { return settings_.volume != SOBB_VOLUME_AABB; }
-
-  // From now on all bases are the frame, the first three directions.
-  void keep_to_frame() {
-    settings_.volume = SOBB_VOLUME_AABB;
-    directions_ = make_direction_table(parts_.directions.first(3));
   }
 
  private:
@@ -119,18 +158,47 @@ class VolumeMaker {
     }
   }
 
-  void make_leaf(const References& leaf, uint32_t block, Bounded& bounded) const {
-    const uint64_t block_count = blocks_of(leaf.primitives.size());
+  // Of the node's inner children, in the part.
+  template <class Body>
+  static void for_each_inner(const Part& part, size_t at, const Body& body) {
+    const WideNode& wide = part.nodes[at];
+    for (uint32_t i = 0; i < wide.child_count; ++i) {
+      if (!wide.is_leaf(i)) body(static_cast<size_t>(wide.index[i] - part.first_node));
+    }
+  }
+
+  // Adds up what a node and those below would save.
+  void look_below(const Part& part, size_t at, Bounded& node, Saving& saving) const {
+    const WideNode& wide = part.nodes[at];
+    Bounded below[kMaxWidth];
+    const Bounded* child[kMaxWidth] = {};
+    for (uint32_t i = 0; i < wide.child_count; ++i) {
+      if (wide.is_leaf(i)) {
+        bound_leaf(references_.part(wide.first[i], wide.count[i]), below[i]);
+      } else {
+        look_below(part, wide.index[i] - part.first_node, below[i], saving);
+      }
+      child[i] = &below[i];
+    }
+    const NodeBases bases = bound_node(wide.child_count, child, node);
+    saving.along_frame += bases.along_frame;
+    saving.saved += bases.along_frame - bases.chosen;
+    saving.off_frame += bases.cost > kFrameCost ? node.area : 0;
+  }
+
+  void bound_leaf(const References& leaf, Bounded& bounded) const {
     fit_leaf(mesh_, leaf, directions_, parts_.header->centre, kernels_, bounded.kdop, frame_);
-    std::fill_n(&parts_.blocks[block], block_count, TriangleBlock{});
+    bounded.cost = kBlockCost * static_cast<float>(blocks_of(leaf.primitives.size()));
+    if (chooses_bases()) find_basis(bounded);
+  }
+
+  void fill_blocks(const References& leaf, uint32_t block) const {
+    std::fill_n(&parts_.blocks[block], blocks_of(leaf.primitives.size()), TriangleBlock{});
     write_blocks(mesh_, leaf.primitives, &parts_.blocks[block]);
-    bounded.cost = kBlockCost * static_cast<float>(block_count);
-    find_basis(bounded);
   }
 
   // The best basis of one volume alone.
   void find_basis(Bounded& bounded) const {
-    if (!chooses_bases()) return;
     alignas(64) float width[kMaxDirections];
     kernels_.widths(bounded.kdop, scale_, width);
     const TripleChoice choice =
@@ -139,21 +207,19 @@ class VolumeMaker {
     bounded.area = choice.area;
   }
 
-  template <int W>
-  void make_node(const WideNode& wide, const Bounded* const* child, Node<W>& node,
-                 Bounded& bounded) const {
+  NodeBases bound_node(uint32_t count, const Bounded* const* child, Bounded& bounded) const {
     // A node has children, which the analyzer cannot know.
     bounded.kdop = child[0]->kdop;  // NOLINT(clang-analyzer-core.NonNullParamChecker)
-    for (uint32_t i = 1; i < wide.child_count; ++i) bounded.kdop.merge(child[i]->kdop);
-    find_basis(bounded);
-    const NodeBases bases = choose_bases(wide.child_count, child, bounded.area);
+    for (uint32_t i = 1; i < count; ++i) bounded.kdop.merge(child[i]->kdop);
+    if (chooses_bases()) find_basis(bounded);
+    const NodeBases bases = choose_bases(count, child, bounded.area);
     bounded.cost = bases.cost;
-    bounded.saved = bases.saved;
-    bounded.off_frame = bases.cost > kFrameCost ? bounded.area : 0;
-    for (uint32_t i = 0; i < wide.child_count; ++i) {
-      bounded.saved += child[i]->saved;
-      bounded.off_frame += child[i]->off_frame;
-    }
+    return bases;
+  }
+
+  template <int W>
+  static void fill_node(const WideNode& wide, const Bounded* const* child, const NodeBases& bases,
+                        Node<W>& node) {
     for (uint32_t i = 0; i < wide.child_count; ++i) {
       for (int j = 0; j < 3; ++j) {
         const uint32_t direction = basis_direction(bases.basis[i], j);
@@ -189,7 +255,8 @@ class VolumeMaker {
     const float axes = kFrameCost * node_area + cost_below(count, child, kAxesBasis);
     const float shared = kSharedCost * node_area + cost_below(count, child, least);
     own += kOwnCost * node_area;
-    bases.saved = axes - std::min({axes, shared, own});
+    bases.along_frame = axes;
+    bases.chosen = std::min({axes, shared, own});
     if (own < std::min(axes, shared)) {
       for (uint32_t i = 0; i < count; ++i) bases.basis[i] = child[i]->basis;
       bases.shared = false;
@@ -227,43 +294,37 @@ class VolumeMaker {
   float scale_;  // of widths, so that areas neither overflow nor vanish
 };
 
-// Whether they save more than the tables of the rays that meet such a node, at most all rays that
-// meet the scene, cost. By every `stride`-th of the subtrees' roots.
-bool other_directions_pay(std::span<const Bounded> roots, size_t stride) {
-  float saved = 0;
-  float off_frame = 0;
-  float sampled = 0;
-  for (size_t i = 0; i < roots.size(); i += stride) {
-    saved += roots[i].saved;
-    off_frame += roots[i].off_frame;
-    sampled += 1.0F / static_cast<float>(roots.size());
-  }
-  return saved >= kTableCost * std::min(off_frame, kMostSceneArea * sampled);
+// Whether other directions than the frame's save enough, beyond what the tables cost of the rays
+// that meet such a node: at most all rays that meet the scene.
+bool other_directions_pay(const VolumeMaker& maker, const WideTopology& wide,
+                          const Scheduler& scheduler, std::pmr::memory_resource& memory) {
+  const std::span<const Part> parts =
+      wide.subtrees.empty() ? std::span(&wide.top, 1) : std::span(wide.subtrees);
+  const uint64_t stride = std::max<uint64_t>(1, wide.node_count / kSampledNodes);
+  std::pmr::vector<Saving> savings(parts.size(), &memory);
+  scheduler.for_each(parts.size(),
+                     [&](uint64_t i) { savings[i] = maker.look_at(parts[i], stride, i, memory); });
+  Saving all;
+  for (const Saving& saving : savings) all.add(saving);
+  const float sampled = 1 / static_cast<float>(stride);
+  const float tables = kTableCost * std::min(all.off_frame, kMostSceneArea * sampled);
+  return all.saved - tables >= kLeastShare * all.along_frame;
 }
 
 template <int W>
 void make_volumes_of(VolumeMaker& maker, const WideTopology& wide, const Scheduler& scheduler,
                      Memory& memory, Progress& progress, double progress_begin) {
+  if (maker.chooses_bases() && !other_directions_pay(maker, wide, scheduler, memory)) {
+    maker.keep_to_frame();
+  }
   const size_t count = wide.subtrees.size();
   std::pmr::vector<Bounded> roots(count, &memory);
   std::atomic<uint64_t> done{0};
-  const auto make_subtree = [&](size_t i) {
+  scheduler.for_each(count, [&](uint64_t i) {
     const auto none = [](uint32_t, uint32_t) -> const Bounded* { return nullptr; };
-    progress.check(progress_begin, 1,
-                   std::min(1.0, static_cast<double>(done) / static_cast<double>(count)));
+    progress.check(progress_begin, 1, static_cast<double>(done) / static_cast<double>(count));
     roots[i] = maker.make_part<W>(wide.subtrees[i], memory, none);
     ++done;
-  };
-  const bool choosing = maker.chooses_bases();
-  const size_t stride = std::max<size_t>(1, count / kSampledSubtrees);
-  if (choosing) {
-    scheduler.for_each((count + stride - 1) / stride,
-                       [&](uint64_t i) { make_subtree(i * stride); });
-    if (!other_directions_pay(roots, stride)) maker.keep_to_frame();
-  }
-  const bool sample_stays = choosing && maker.chooses_bases();
-  scheduler.for_each(count, [&](uint64_t i) {
-    if (!sample_stays || i % stride != 0) make_subtree(i);
   });
   // Places are in the order of the top's nodes and their children.
   const auto subtree = [&](uint32_t node, uint32_t child) -> const Bounded* {

@@ -122,9 +122,18 @@ TEST(Gltf, ReadsQuantizedPositions) {
   EXPECT_EQ(normalized[1], 1);
   EXPECT_EQ(normalized[2], -1);
   EXPECT_EQ(normalized[8], float(-6 / 127.0));
-  const std::string words = raw(std::vector<uint16_t>{0, 65535, 1, 0, 2, 3, 4, 0, 5, 6, 7, 0});
-  EXPECT_EQ(read(file_of(words, kUshort, false)).vertices[1], 65535);
+  const Floats ubytes = {0, 127, 128, 1, 2, 3, 4, 5, 250};
+  EXPECT_EQ(read(file_of(bytes, kUbyte, false)).vertices, ubytes);
+  EXPECT_EQ(read(file_of(bytes, kUbyte, true)).vertices[2], float(128 / 255.0));
+  const std::string words = raw(std::vector<uint16_t>{0, 65535, 1, 0, 2, 3, 32768, 0, 5, 6, 7, 0});
+  EXPECT_EQ(read(file_of(words, kUshort, false)).vertices,
+            (Floats{0, 65535, 1, 2, 3, 32768, 5, 6, 7}));
   EXPECT_EQ(read(file_of(words, kUshort, true)).vertices[1], 1);
+  EXPECT_EQ(read(file_of(words, kShort, false)).vertices,
+            (Floats{0, -1, 1, 2, 3, -32768, 5, 6, 7}));
+  const Floats shorts = read(file_of(words, kShort, true)).vertices;
+  EXPECT_EQ(shorts[1], float(-1 / 32767.0));
+  EXPECT_EQ(shorts[5], -1);
 
   GltfFile unannounced = file_of(bytes, kByte, false);
   unannounced.document.erase("extensionsRequired");
