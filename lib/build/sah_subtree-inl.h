@@ -32,10 +32,10 @@ class SubtreeBuilder {
   void add(const SahNode& node, int from, uint32_t depth, TopologyNode& made) {
     made.box = node.extent.box.box();
     Split split;
-    if (node.count > 1 && depth < kDeepestSplit) split = find_best(node, from);
-    made.is_leaf =
-        node.count <= kMaxLeafReferences &&
-        kLeafBlockCost * blocks(node.count) <= kBinaryStepCost + kLeafBlockCost * split.cost;
+    if (node.count > 1 && depth < kDeepestSplit && !is_one_block(node, from)) {
+      split = find_best(node, from);
+    }
+    made.is_leaf = node.count <= kMaxLeafReferences && is_leaf_cheaper(node.count, split.cost);
     if (made.is_leaf) return finish(node, from, made);
 
     SahNode child[2];
@@ -50,6 +50,23 @@ class SubtreeBuilder {
     add(child[0], from, depth + 1, pair.child[0]);
     add(child[1], from, depth + 1, pair.child[1]);
     made.count = pair.count();
+  }
+
+  static bool is_leaf_cheaper(uint64_t count, float split_cost) {
+    return kLeafBlockCost * blocks(count) <= kBinaryStepCost + kLeafBlockCost * split_cost;
+  }
+
+  // Whether one block is cheaper than any split, which need not be looked for then: a side is no
+  // smaller than its largest reference, unless that may be cut.
+  bool is_one_block(const SahNode& node, int from) const {
+    if (blocks(node.count) > 1 || subtree_.cutting != nullptr) return false;
+    const Areas area(node.extent.box);
+    const SahReference* references = subtree_.at[from] + node.begin;
+    return std::any_of(references, references + node.count, [&](const SahReference& reference) {
+      FlatBox box = FlatBox::nothing();
+      grow(box.at, reference.lower);
+      return is_leaf_cheaper(node.count, area(box));
+    });
   }
 
   Split find_best(const SahNode& node, int from) {
