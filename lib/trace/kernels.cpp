@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tracing kernels of every target, and the table that chooses among them.
+#include <algorithm>
 #include <optional>
 
 #include "base/highway_targets.h"
@@ -15,6 +16,7 @@
 #include "trace/packet-inl.h"
 #include "trace/stream-inl.h"
 #include "trace/trace_rays-inl.h"
+#include "trace/wave-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -94,11 +96,26 @@ uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t cou
 }
 
 template <Query kQuery, class Result>
-uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint32_t count, Result* results,
-                     void* memory, bool& scattered) {
-  auto& batch = *new (memory) StreamBatch;
+uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
+                     void* scratch) {
+  auto& batch = *new (scratch) StreamBatch;
   const auto with = [&](auto volumes) HWY_ATTR {
-    return trace_stream<decltype(volumes), kQuery>(tracer, rays, count, results, batch, scattered);
+    return trace_stream<decltype(volumes), kQuery>(tracer, rays, static_cast<uint32_t>(count),
+                                                   results, batch);
+  };
+  if (tracer.width == 4) {
+    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
+  }
+  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
+}
+
+template <Query kQuery, class Result>
+uint64_t trace_wave(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
+                    void* scratch) {
+  const auto with = [&](auto volumes) HWY_ATTR {
+    using Volumes = decltype(volumes);
+    auto& memory = *new (scratch) WaveMemory<Volumes::kWidth>;
+    return Wave<Volumes, kQuery, Result>(tracer, rays, count, results, memory).trace();
   };
   if (tracer.width == 4) {
     return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
@@ -109,9 +126,11 @@ uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
 }  // namespace
 
 const TraceKernels& target_trace_kernels() {
-  static constexpr TraceKernels kKernels = {sizeof(StreamBatch),
+  static constexpr TraceKernels kKernels = {std::max(sizeof(StreamBatch), sizeof(WaveMemory<8>)),
                                             trace_batch<Query::kClosest, sobb_hit>,
                                             trace_batch<Query::kAny, uint8_t>,
+                                            trace_wave<Query::kClosest, sobb_hit>,
+                                            trace_wave<Query::kAny, uint8_t>,
                                             trace<Query::kClosest, sobb_hit>,
                                             trace<Query::kAny, uint8_t>,
                                             trace_coherent<Query::kClosest, sobb_hit>,

@@ -53,7 +53,8 @@ HWY_INLINE SlabCoefficients<V> slab_coefficients(D d, V nx, V ny, V nz, V ox, V 
   return {r, hn::NegMulSub(no, r, slack), hn::NegMulAdd(no, r, slack)};
 }
 
-// For one ray: by direction, one vector of four each, so that a lookup is one load.
+// For one ray, a ScaledRay or SlabRay: by direction, one vector of four each, so that a lookup is
+// one load.
 struct RayTable {
   struct Entry {
     float reciprocal;
@@ -63,7 +64,8 @@ struct RayTable {
   };
   alignas(64) Entry entry[kMaxDirections];
 
-  HWY_INLINE RayTable(const TraceScene& scene, const ScaledRay& ray) {
+  template <class Ray>
+  HWY_INLINE RayTable(const TraceScene& scene, const Ray& ray) {
     const DirectionTable& directions = scene.directions;
     const hn::CappedTag<float, 8> d;
     for (uint32_t k = 0; k < directions.count; k += static_cast<uint32_t>(hn::Lanes(d))) {

@@ -32,10 +32,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 // From this many rays on a list pays.
 inline constexpr uint32_t kListRays = 4;
 
-// Where rays visit more nodes than this alone, they are faster one by one (3.5 to 6 of hair and
-// hairball, bounces 1 to 7 and random rays: 6 to 60 % slower together; up to 2: faster together).
-inline constexpr uint64_t kMostAlone = 3;
-
 // The rays of a list that have no hit nearer than it, packed. Returns how many.
 HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit) {
   const hn::CappedTag<RayEntry, 8> du;
@@ -90,9 +86,6 @@ class StreamTracer {
     }
     return stream.top != 0;
   }
-
-  // Visits of nodes for one ray.
-  uint64_t visits_alone() const { return visits_alone_; }
 
  private:
   HWY_INLINE void test_triangles(StackKey key, uint32_t ray) {
@@ -152,7 +145,6 @@ class StreamTracer {
   template <class EntriesOf>
   HWY_INLINE void visit_alone(Stream& stream, const Node<kWidth>& node, uint32_t ray,
                               const EntriesOf& entries_of) {
-    ++visits_alone_;
     const ChildEntries<kWidth> d;
     alignas(64) RayEntry entry[kWidth];
     uint32_t met = 0;
@@ -212,7 +204,6 @@ class StreamTracer {
   const TraceScene& scene_;
   const Node<kWidth>* nodes_;
   StreamBatch& batch_;
-  uint64_t visits_alone_ = 0;
 };
 
 // Gives each octant its rays: the root's list.
@@ -231,11 +222,10 @@ inline void begin_streams(const uint32_t (&count)[kOctants], StreamBatch& batch)
   }
 }
 
-// At most kBatchRays of them. Returns how many were not valid; `scattered` receives whether rays
-// met so few nodes together that such rays are faster one by one.
+// At most kBatchRays of them. Returns how many were not valid.
 template <class Volumes, Query kQuery, class Result>
 uint64_t trace_stream(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
-                      Result* results, StreamBatch& batch, bool& scattered) {
+                      Result* results, StreamBatch& batch) {
   uint32_t octant_count[kOctants] = {};
   const uint32_t invalid = fill_batch(scene, rays, count, results, batch, octant_count);
   begin_streams(octant_count, batch);
@@ -254,7 +244,6 @@ uint64_t trace_stream(const TraceScene& scene, const sobb_ray* rays, uint32_t co
       }
     }
   }
-  scattered = tracer.visits_alone() > kMostAlone * count;
   for (uint32_t i = 0; i < count; ++i) {
     if (invalid == 0 || is_valid(rays[i])) store(batch.best(i), results[i]);
   }

@@ -16,6 +16,7 @@
 #include "trace/ray_entry.h"
 #include "trace/ray_table-inl.h"
 #include "trace/scaled_ray.h"
+#include "trace/slab_ray.h"
 #include "trace/stack_key.h"
 #include "trace/triangle_block-inl.h"
 
@@ -28,19 +29,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr uint32_t kOctants = 8;
 inline constexpr uint32_t kMostChildren = 8;
-
-// What node tests read of a ray: the first three directions' coefficients (ray_table-inl.h), and
-// what those of other directions are made of.
-struct alignas(64) StreamRay {
-  float reciprocal[3];
-  float tmin;
-  float near[3];
-  float scale;
-  float far[3];
-  float error;
-  float origin[4];  // the fourth is void, here and below
-  float direction[4];
-};
 
 // Something to visit: a node or leaf, and the rays that meet it; or one ray, which needs no list.
 struct StreamItem {
@@ -70,7 +58,7 @@ struct StreamBatch {
   // Arena entries for each ray of a stream. With fewer, lists are visited in parts.
   static constexpr uint32_t kArena = 16;
 
-  StreamRay ray[kBatchRays];
+  SlabRay ray[kBatchRays];
   float limit[kBatchRays];  // in scaled units; negative once an any-hit ray is done
   Stream stream[kOctants];
   // By octant before the streams begin, then by child, while a node is visited.

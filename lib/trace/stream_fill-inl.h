@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A batch's rays made ready: as many at once as a vector has lanes. Included once for each Highway
+// A batch's rays made ready. Included once for each Highway
 // target.
 #if defined(SOBB_TRACE_STREAM_FILL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_STREAM_FILL_INL_H
@@ -12,13 +12,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <new>
 
-#include "trace/mask_bits-inl.h"
-#include "trace/ray_vectors-inl.h"
+#include "trace/ray_fill-inl.h"
 #include "trace/stream_batch-inl.h"
 #include "trace/trace_rays-inl.h"
-#include "trace/transpose-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -27,174 +24,22 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-class BatchFiller {
- public:
-  BatchFiller(const TraceScene& scene, StreamBatch& batch) : scene_(scene), batch_(batch) {}
+struct BatchPlaces {
+  StreamBatch& batch;
 
-  // Makes as many of the batch's rays as a vector has, the first the i-th. Returns which are valid.
-  HWY_INLINE uint32_t fill(const sobb_ray* rays, uint32_t i) {
-    const RayFloats d;
-    const RayVectors some(rays);
-    V size[3];
-    for (int k = 0; k < 3; ++k) size[k] = hn::Abs(some.direction[k]);
-    const V largest = hn::Max(hn::Max(size[0], size[1]), size[2]);
-    const uint32_t valid = mask_bits(d, is_valid(some, size, largest));
-
-    V origin[3];
-    for (int k = 0; k < 3; ++k) origin[k] = hn::Sub(some.origin[k], hn::Set(d, scene_.centre[k]));
-    const V distance = hn::Add(hn::Add(hn::Abs(origin[0]), hn::Abs(origin[1])), hn::Abs(origin[2]));
-    constexpr float kLongest = ScaledRay::kLongest;
-    const auto usual = hn::And(
-        hn::And(hn::Ge(largest, hn::Set(d, 1 / kLongest)), hn::Le(largest, hn::Set(d, kLongest))),
-        hn::Le(distance, hn::Set(d, ScaledRay::kFurthest)));
-    fill_slabs(some, origin, distance, i);
-    fill_triangle_rays(some, LargestAxis(size), i);
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      new (batch_.hits[i + lane]) ClosestHit(rays[lane]);
-    }
-    for (uint32_t left = valid & ~mask_bits(d, usual); left != 0; left &= left - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(left));
-      fill_slabs(ScaledRay(scene_, rays[lane]), i + lane);
-    }
-    return valid;
-  }
-
-  // The signs of a ray's cosines with the first three directions, which say which planes are the
-  // near ones.
-  uint32_t octant(uint32_t i) const {
-    uint32_t bits = 0;
-    for (int k = 0; k < 3; ++k) {
-      bits |= std::bit_cast<uint32_t>(batch_.ray[i].reciprocal[k]) >> 31 << k;
-    }
-    return bits;
-  }
-
- private:
-  using V = RayVectors::V;
-  using M = RayVectors::M;
-  static constexpr uint32_t kLanes = RayVectors::kLanes;
-
-  // As is_valid() of one ray.
-  static HWY_INLINE M is_valid(const RayVectors& rays, const V (&size)[3], V largest) {
-    const RayFloats d;
-    const V most = hn::Set(d, FLT_MAX);
-    auto valid = hn::And(hn::Ge(rays.tmin, hn::Zero(d)), hn::Eq(rays.tmax, rays.tmax));
-    valid = hn::And(valid, hn::Gt(largest, hn::Zero(d)));
-    for (int k = 0; k < 3; ++k) {
-      valid = hn::And(valid, hn::Le(size[k], most));
-      valid = hn::And(valid, hn::Le(hn::Abs(rays.origin[k]), most));
-    }
-    return valid;
-  }
-
-  // As ScaledRay has them where nothing need be scaled.
-  HWY_INLINE void fill_slabs(const RayVectors& rays, const V (&origin)[3], V distance, uint32_t i) {
-    const RayFloats d;
-    const V reach = hn::Add(distance, hn::Set(d, scene_.radius));
-    const V error = hn::MulAdd(hn::Add(distance, reach), hn::Set(d, ScaledRay::kRelativeError),
-                               hn::Set(d, ScaledRay::kLeastError));
-    const V tmin = hn::Max(hn::Sub(rays.tmin, hn::Set(d, kSmallestFloat)), hn::Zero(d));
-    const DirectionTable& directions = scene_.directions;
-    SlabCoefficients<V> c[3];
-    for (int j = 0; j < 3; ++j) {
-      c[j] = slab_coefficients(d, hn::Set(d, directions.x[j]), hn::Set(d, directions.y[j]),
-                               hn::Set(d, directions.z[j]), origin[0], origin[1], origin[2],
-                               rays.direction[0], rays.direction[1], rays.direction[2], error);
-    }
-    StreamRay* to = batch_.ray + i;
-    const V scale = hn::Set(d, 1.0F);
-    store_rows(c[0].reciprocal, c[1].reciprocal, c[2].reciprocal, tmin, to->reciprocal);
-    store_rows(c[0].near, c[1].near, c[2].near, scale, to->near);
-    store_rows(c[0].far, c[1].far, c[2].far, error, to->far);
-    store_rows(origin[0], origin[1], origin[2], hn::Zero(d), to->origin);
-    store_rows(rays.direction[0], rays.direction[1], rays.direction[2], hn::Zero(d), to->direction);
-    const V limit = hn::Min(rays.tmax, hn::Set(d, FLT_MAX));
-    hn::StoreU(hn::Add(limit, hn::Set(d, kSmallestFloat)), d, batch_.limit + i);
-  }
-
-  // Four numbers of each ray, to the place of the first ray's in its StreamRay.
-  template <class Vector>
-  static HWY_INLINE void store_rows(Vector a, Vector b, Vector c, Vector e, float* to) {
-    constexpr size_t kStride = sizeof(StreamRay) / sizeof(float);
-    const hn::CappedTag<float, 4> row;
-    Vector column[4];
-    transpose_blocks(a, b, c, e, column);
-    for (size_t j = 0; j < 4; ++j) {
-      if constexpr (kLanes == 4) {
-        hn::Store(column[j], row, to + j * kStride);
-      } else {
-        hn::Store(hn::LowerHalf(row, column[j]), row, to + j * kStride);
-        hn::Store(hn::UpperHalf(row, column[j]), row, to + (j + 4) * kStride);
-      }
-    }
-  }
-
-  // Of one ray, whatever its size.
-  HWY_INLINE void fill_slabs(const ScaledRay& ray, uint32_t i) {
-    const hn::CappedTag<float, 4> d;
-    const DirectionTable& directions = scene_.directions;
-    const auto c = slab_coefficients(d, hn::Load(d, directions.x), hn::Load(d, directions.y),
-                                     hn::Load(d, directions.z), hn::Set(d, ray.origin[0]),
-                                     hn::Set(d, ray.origin[1]), hn::Set(d, ray.origin[2]),
-                                     hn::Set(d, ray.direction[0]), hn::Set(d, ray.direction[1]),
-                                     hn::Set(d, ray.direction[2]), hn::Set(d, ray.error));
-    StreamRay& to = batch_.ray[i];
-    hn::Store(c.reciprocal, d, to.reciprocal);
-    hn::Store(c.near, d, to.near);
-    hn::Store(c.far, d, to.far);
-    to.tmin = ray.tmin;
-    to.scale = ray.scale;
-    to.error = ray.error;
-    for (int k = 0; k < 3; ++k) {
-      to.origin[k] = ray.origin[k];
-      to.direction[k] = ray.direction[k];
-    }
-    batch_.limit[i] = scale_limit(batch_.best(i).limit, ray.scale);
-  }
-
-  // As TriangleRay has them.
-  HWY_INLINE void fill_triangle_rays(const RayVectors& rays, const LargestAxis& axis, uint32_t i) {
-    const RayFloats d;
-    alignas(64) double origin[3][kLanes];
-    alignas(64) double shear[2][kLanes];
-    alignas(64) double along[kLanes];
-    alignas(64) float tmin[kLanes];
-    for (int k = 0; k < 3; ++k) store_doubles(axis.permuted(rays.origin, k), origin[k]);
-    const V z = axis.permuted(rays.direction, 2);
-    for (int k = 0; k < 2; ++k) store_quotients(axis.permuted(rays.direction, k), z, shear[k]);
-    store_doubles(z, along);
-    hn::Store(rays.tmin, d, tmin);
-    const uint32_t x = mask_bits(d, axis.x);
-    const uint32_t y = mask_bits(d, axis.y);
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      const int largest = (x >> lane & 1) != 0 ? 0 : 2 - static_cast<int>(y >> lane & 1);
-      const TriangleRay ray(largest, {origin[0][lane], origin[1][lane], origin[2][lane]},
-                            {shear[0][lane], shear[1][lane]}, along[lane]);
-      new (batch_.block_rays[i + lane]) BlockRay(ray, tmin[lane]);
-    }
-  }
-
-  using HalfFloats = hn::Half<RayFloats>;
-  using HalfDoubles = hn::Rebind<double, HalfFloats>;
-
-  static HWY_INLINE void store_doubles(V v, double* to) {
-    const HalfDoubles d;
-    hn::Store(hn::PromoteTo(d, hn::LowerHalf(HalfFloats(), v)), d, to);
-    hn::Store(hn::PromoteTo(d, hn::UpperHalf(HalfFloats(), v)), d, to + kLanes / 2);
-  }
-  static HWY_INLINE void store_quotients(V a, V b, double* to) {
-    const HalfFloats half;
-    const HalfDoubles d;
-    const auto quotient = [&](auto x, auto y) HWY_ATTR {
-      return hn::Div(hn::PromoteTo(d, x), hn::PromoteTo(d, y));
-    };
-    hn::Store(quotient(hn::LowerHalf(half, a), hn::LowerHalf(half, b)), d, to);
-    hn::Store(quotient(hn::UpperHalf(half, a), hn::UpperHalf(half, b)), d, to + kLanes / 2);
-  }
-
-  const TraceScene& scene_;
-  StreamBatch& batch_;
+  SlabRay& slabs(uint32_t i) const { return batch.ray[i]; }
+  void* block_ray(uint32_t i) const { return batch.block_rays[i]; }
+  void* hit(uint32_t i) const { return batch.hits[i]; }
+  void set_limit(uint32_t i, float limit) const { batch.limit[i] = limit; }
 };
+
+// The signs of a ray's cosines with the first three directions, which say which planes are the near
+// ones.
+inline uint32_t octant_of(const SlabRay& ray) {
+  uint32_t bits = 0;
+  for (int k = 0; k < 3; ++k) bits |= std::bit_cast<uint32_t>(ray.reciprocal[k]) >> 31 << k;
+  return bits;
+}
 
 // Makes the batch of the valid rays. Returns how many are not; of those of each octant there are,
 // in its list, so many.
@@ -203,7 +48,7 @@ HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, ui
                                Result* results, StreamBatch& batch,
                                uint32_t (&octant_count)[kOctants]) {
   constexpr uint32_t kLanes = RayVectors::kLanes;
-  BatchFiller filler(scene, batch);
+  RayFiller<BatchPlaces> filler(scene, BatchPlaces{batch});
   uint32_t invalid = 0;
   for (uint32_t first = 0; first < count; first += kLanes) {
     const uint32_t some = std::min(kLanes, count - first);
@@ -220,7 +65,7 @@ HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, ui
         ++invalid;
         continue;
       }
-      const uint32_t octant = filler.octant(first + i);
+      const uint32_t octant = octant_of(batch.ray[first + i]);
       batch.list[octant][octant_count[octant]++] = first + i;
     }
   }

@@ -42,7 +42,7 @@ struct FrameNode {
 
   HWY_INLINE hn::Vec<ChildEntries<W>> operator()(uint32_t index, size_t first) const {
     const ChildFloats<W> d;
-    const StreamRay& ray = batch.ray[index];
+    const SlabRay& ray = batch.ray[index];
     auto near = hn::Set(d, ray.tmin);
     auto far = hn::Set(d, batch.limit[index]);
     for (int j = 0; j < 3; ++j) {
@@ -76,7 +76,7 @@ struct SharedNode {
   HWY_INLINE hn::Vec<ChildEntries<W>> operator()(uint32_t index, size_t first) const {
     const ChildFloats<W> d;
     const hn::CappedTag<float, 4> d4;
-    const StreamRay& ray = batch.ray[index];
+    const SlabRay& ray = batch.ray[index];
     const auto c = slab_coefficients(d4, hn::Load(d4, normal[0]), hn::Load(d4, normal[1]),
                                      hn::Load(d4, normal[2]), hn::Set(d4, ray.origin[0]),
                                      hn::Set(d4, ray.origin[1]), hn::Set(d4, ray.origin[2]),
@@ -119,7 +119,7 @@ struct OwnNode {
 
   HWY_INLINE hn::Vec<ChildEntries<W>> operator()(uint32_t index, size_t first) const {
     const ChildFloats<W> d;
-    const StreamRay& ray = batch.ray[index];
+    const SlabRay& ray = batch.ray[index];
     auto near = hn::Set(d, ray.tmin);
     auto far = hn::Set(d, batch.limit[index]);
     for (int j = 0; j < 3; ++j) {

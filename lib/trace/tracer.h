@@ -36,13 +36,18 @@ inline constexpr uint32_t kBatchRays = 2048;
 // The kernels of one instruction set. Each returns how many rays were not valid. `counts` may be
 // null.
 struct TraceKernels {
-  // A batch of rays that need not be coherent, with `batch_bytes` of memory, aligned to 64.
-  // `scattered` receives whether such rays would be faster one by one.
-  size_t batch_bytes;
-  uint64_t (*intersect_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
-                              sobb_hit* hits, void* memory, bool& scattered);
-  uint64_t (*occluded_batch)(const Tracer& tracer, const sobb_ray* rays, uint32_t count,
-                             uint8_t* occluded, void* memory, bool& scattered);
+  // Two ways for an array of rays that need not be coherent, each with `scratch_bytes` of memory,
+  // aligned to 64: in a batch, at most kBatchRays, which shares nodes (stream-inl.h), and in a
+  // wave, which hides what memory takes (wave-inl.h).
+  size_t scratch_bytes;
+  uint64_t (*intersect_batch)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                              sobb_hit* hits, void* scratch);
+  uint64_t (*occluded_batch)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                             uint8_t* occluded, void* scratch);
+  uint64_t (*intersect_wave)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                             sobb_hit* hits, void* scratch);
+  uint64_t (*occluded_wave)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                            uint8_t* occluded, void* scratch);
   // Ray by ray.
   uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                         sobb_count* counts);

@@ -29,6 +29,24 @@ namespace hn = hwy::HWY_NAMESPACE;
 // What a query is: the closest hit, or whether there is any.
 enum class Query { kClosest, kAny };
 
+// Of as many triangles as a vector has lanes, what ClosestHit::offer() wants.
+struct BlockHits {
+  static constexpr size_t kLanes = hn::MaxLanes(hn::CappedTag<double, 4>());
+  alignas(32) double t[kLanes];
+  alignas(32) double w1[kLanes];
+  alignas(32) double w2[kLanes];
+  alignas(32) double sum[kLanes];
+
+  template <class V>
+  HWY_INLINE void store(V t_of, V w1_of, V w2_of, V sum_of) {
+    const hn::CappedTag<double, 4> d;
+    hn::Store(t_of, d, t);
+    hn::Store(w1_of, d, w1);
+    hn::Store(w2_of, d, w2);
+    hn::Store(sum_of, d, sum);
+  }
+};
+
 // A ray before the triangles of a block.
 class BlockRay {
  public:
@@ -46,9 +64,38 @@ class BlockRay {
     return found;
   }
 
+  // Without a branch: the lanes of the block's triangles from `first` on that may be hits up to
+  // `limit`, to be offered then.
+  HWY_INLINE uint32_t meet(const TriangleBlock& block, size_t first, float limit,
+                           BlockHits& hits) const {
+    const Doubles d;
+    const hn::Rebind<float, Doubles> df;
+    const Weights of = weights(block, first);
+    V sum;
+    V t;
+    const uint32_t lanes = mask_bits(d, distances(of, sum, t));
+    hits.store(t, of.w[1], of.w[2], sum);
+    return lanes & mask_bits(df, hn::Le(hn::DemoteTo(df, t), hn::Set(df, limit)));
+  }
+
+  // Offers hits to `best`. Returns whether it took one.
+  template <Query kQuery>
+  HWY_INLINE bool offer(const TriangleBlock& block, size_t first, uint32_t lanes,
+                        const BlockHits& hits, ClosestHit& best) const {
+    bool found = false;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
+      found |= best.offer(hits.t[lane], hits.w1[lane], hits.w2[lane], hits.sum[lane], tmin_,
+                          block.primitive[first + lane]);
+      if (kQuery == Query::kAny && found) return true;
+    }
+    return found;
+  }
+
  private:
   using Doubles = hn::CappedTag<double, 4>;
   using V = hn::Vec<Doubles>;
+  using M = hn::Mask<Doubles>;
 
   // A vertex's coordinate along the k-th of the ray's axes, from the origin.
   HWY_INLINE V relative(const float (&vertex)[3][4], size_t first, int k) const {
@@ -67,8 +114,14 @@ class BlockRay {
     return hn::PromoteTo(d, hn::DemoteTo(df, at));
   }
 
-  template <Query kQuery>
-  HWY_INLINE bool test_lanes(const TriangleBlock& block, size_t first, ClosestHit& best) const {
+  // As triangle_test.h has them.
+  struct Weights {
+    V z[3];
+    V w[3];
+    M inside;
+  };
+
+  HWY_INLINE Weights weights(const TriangleBlock& block, size_t first) const {
     const Doubles d;
     const V z0 = relative(block.vertex[0], first, 2);
     const V z1 = relative(block.vertex[1], first, 2);
@@ -85,36 +138,34 @@ class BlockRay {
     const V w2 = hn::Sub(hn::Mul(x1, y0), hn::Mul(y1, x0));
     // Where a weight is not a number, from overflow, t is not either.
     const V zero = hn::Zero(d);
-    const auto inside = hn::Or(hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero),
-                               hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
-    if (mask_bits(d, inside) == 0) return false;
+    const M inside = hn::Or(hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero),
+                            hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
+    return {{z0, z1, z2}, {w0, w1, w2}, inside};
+  }
 
-    const V sum = hn::Add(hn::Add(w0, w1), w2);
-    const V t = hn::Div(hn::Add(hn::Add(hn::Mul(w0, z0), hn::Mul(w1, z1)), hn::Mul(w2, z2)),
-                        hn::Mul(sum, hn::Set(d, ray_.direction_z)));
-    const auto hits = hn::And(hn::And(inside, hn::Ne(sum, zero)), hn::Ge(t, zero));
-    uint32_t lanes = mask_bits(d, hits);
-    if (lanes == 0) return false;
-    return offer<kQuery>(block, first, lanes, t, w1, w2, sum, best);
+  // Where the ray meets the triangles' planes, and which of the triangles themselves, ahead.
+  HWY_INLINE M distances(const Weights& of, V& sum, V& t) const {
+    const Doubles d;
+    const V zero = hn::Zero(d);
+    sum = hn::Add(hn::Add(of.w[0], of.w[1]), of.w[2]);
+    t = hn::Div(hn::Add(hn::Add(hn::Mul(of.w[0], of.z[0]), hn::Mul(of.w[1], of.z[1])),
+                        hn::Mul(of.w[2], of.z[2])),
+                hn::Mul(sum, hn::Set(d, ray_.direction_z)));
+    return hn::And(hn::And(of.inside, hn::Ne(sum, zero)), hn::Ge(t, zero));
   }
 
   template <Query kQuery>
-  HWY_INLINE bool offer(const TriangleBlock& block, size_t first, uint32_t lanes, V t, V w1, V w2,
-                        V sum, ClosestHit& best) const {
+  HWY_INLINE bool test_lanes(const TriangleBlock& block, size_t first, ClosestHit& best) const {
     const Doubles d;
-    alignas(32) double of[4][hn::MaxLanes(Doubles())];
-    hn::Store(t, d, of[0]);
-    hn::Store(w1, d, of[1]);
-    hn::Store(w2, d, of[2]);
-    hn::Store(sum, d, of[3]);
-    bool found = false;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<uint32_t>(std::countr_zero(lanes));
-      found |= best.offer(of[0][lane], of[1][lane], of[2][lane], of[3][lane], tmin_,
-                          block.primitive[first + lane]);
-      if (kQuery == Query::kAny && found) return true;
-    }
-    return found;
+    const Weights of = weights(block, first);
+    if (mask_bits(d, of.inside) == 0) return false;
+    V sum;
+    V t;
+    const uint32_t lanes = mask_bits(d, distances(of, sum, t));
+    if (lanes == 0) return false;
+    BlockHits hits;
+    hits.store(t, of.w[1], of.w[2], sum);
+    return offer<kQuery>(block, first, lanes, hits, best);
   }
 
   TriangleRay ray_;

@@ -2,12 +2,14 @@
 // Tracing: arrays, packets, single rays, and the oracle.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 
 #include "../guard.h"
 #include "base/isa.h"
 #include "base/scheduler.h"
 #include "base/scratch_pool.h"
 #include "hierarchy.h"
+#include "trace/fastest_way.h"
 #include "trace/oracle.h"
 
 using sobb::guard;
@@ -18,11 +20,8 @@ namespace {
 
 // Rays a task. A batch is enough to drown its cost, and few enough to balance rays that differ.
 constexpr uint64_t kGrain = sobb::kBatchRays;
-// Fewer rays are not worth a batch's memory.
-constexpr uint64_t kFewestInBatch = 256;
-// After a batch whose rays go ways of their own, rays are traced one by one, but for one task of so
-// many, which tries again.
-constexpr uint64_t kTasksATry = 8;
+// Fewer rays are not worth the memory that tracing them together takes.
+constexpr uint64_t kFewestTogether = 256;
 
 sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   const sobb_trace_options known = sobb::read_options(options, "trace options");
@@ -35,19 +34,28 @@ sobb_trace_options read_trace_options(const sobb_trace_options* options) {
 // The kernels of an array call.
 template <class Result>
 struct ArrayKernels {
+  using Way = uint64_t (*)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, void*);
+
   uint64_t (*single)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
   uint64_t (*coherent)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*);
-  uint64_t (*batch)(const sobb::Tracer&, const sobb_ray*, uint32_t, Result*, void*, bool&);
-  size_t batch_bytes;
+  Way ways[sobb::FastestWay::kWays];
+  size_t first_way;
 };
 
+// Rays that look for the closest hit mostly go ways of their own; those that look for any end
+// where they began, or at a light.
 ArrayKernels<sobb_hit> array_kernels(const sobb::TraceKernels& kernels, const sobb_hit*) {
-  return {kernels.intersect, kernels.intersect_coherent, kernels.intersect_batch,
-          kernels.batch_bytes};
+  return {kernels.intersect,
+          kernels.intersect_coherent,
+          {kernels.intersect_batch, kernels.intersect_wave},
+          1};
 }
 
 ArrayKernels<uint8_t> array_kernels(const sobb::TraceKernels& kernels, const uint8_t*) {
-  return {kernels.occluded, kernels.occluded_coherent, kernels.occluded_batch, kernels.batch_bytes};
+  return {kernels.occluded,
+          kernels.occluded_coherent,
+          {kernels.occluded_batch, kernels.occluded_wave},
+          0};
 }
 
 // Checks the arguments of an array call, shares the array among threads, adds up the invalid rays.
@@ -56,17 +64,18 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
                  Result* results, const sobb_trace_options* options) {
   require(hierarchy, "hierarchy");
   const sobb_trace_options known = read_trace_options(options);
-  const auto kernels = array_kernels(sobb::trace_kernels(sobb::resolve_isa(known.isa)), results);
+  const sobb::TraceKernels& all_kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
+  const auto kernels = array_kernels(all_kernels, results);
   if (count != 0) {
     require(rays, "rays");
     require(results, "results");
   }
   const sobb::Tracer& tracer = hierarchy->tracer;
   const bool coherent = (known.flags & SOBB_TRACE_COHERENT) != 0;
-  sobb::ScratchPool pool(*hierarchy->memory, kernels.batch_bytes);
+  sobb::ScratchPool pool(*hierarchy->memory, all_kernels.scratch_bytes);
   const sobb::Scheduler scheduler(known.threads, known.scheduler);
   std::atomic<uint64_t> invalid{0};
-  std::atomic<bool> scattered{false};
+  sobb::FastestWay fastest(kernels.first_way);
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     const uint64_t size = end - begin;
     if (known.counts != nullptr) {
@@ -77,14 +86,13 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
       invalid += kernels.coherent(tracer, rays + begin, size, results + begin);
       return;
     }
-    const bool tries = begin / kGrain % kTasksATry == 0;
-    if (size >= kFewestInBatch && (tries || !scattered)) {
+    if (size >= kFewestTogether) {
       const sobb::ScratchPool::Lease lease(pool);
       if (lease.get() != nullptr) {
-        bool alone = false;
-        invalid += kernels.batch(tracer, rays + begin, static_cast<uint32_t>(size), results + begin,
-                                 lease.get(), alone);
-        scattered = alone;
+        const size_t way = fastest.of_task(begin / kGrain);
+        const auto start = std::chrono::steady_clock::now();
+        invalid += kernels.ways[way](tracer, rays + begin, size, results + begin, lease.get());
+        fastest.took(way, std::chrono::steady_clock::now() - start, size);
         return;
       }
     }

@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+// An array of rays, each on a way of its own: a few of them, a wave, take turns, one visit each, so
+// that what a visit asks memory for has the others' visits to arrive. A visit has next to no branch
+// that depends on what the ray meets: such a branch, once mispredicted, would cost the others what
+// they gain. Included once for each Highway target.
+//
+// One ray after another waits for memory twice: a node's address is known only after the node
+// before it, and a mispredicted branch keeps the processor from looking further ahead.
+#if defined(SOBB_TRACE_WAVE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_WAVE_INL_H
+#undef SOBB_TRACE_WAVE_INL_H
+#else
+#define SOBB_TRACE_WAVE_INL_H
+#endif
+
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+
+#include "trace/file_volumes-inl.h"
+#include "trace/push_table.h"
+#include "trace/ray_fill-inl.h"
+#include "trace/single-inl.h"
+#include "trace/trace_rays-inl.h"
+#include "trace/wave_ray-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Limits that lanes without a child do not reach, by the number of children.
+struct ChildLimits {
+  alignas(64) float of[16][8];
+
+  constexpr ChildLimits() : of{} {
+    for (int children = 0; children < 16; ++children) {
+      for (int i = 0; i < 8; ++i) of[children][i] = i < children ? INFINITY : -1.0F;
+    }
+  }
+};
+inline constexpr ChildLimits kChildLimits;
+
+template <class Volumes, Query kQuery, class Result>
+class Wave {
+  static constexpr int kWidth = Volumes::kWidth;
+  static constexpr size_t kLanes = hn::MaxLanes(ChildFloats<kWidth>());
+  static constexpr size_t kParts = kWidth / kLanes;
+  using Node = typename Volumes::Node;
+  using Ray = WaveRay<kWidth>;
+
+ public:
+  Wave(const TraceScene& scene, const sobb_ray* rays, uint64_t count, Result* results,
+       WaveMemory<kWidth>& memory)
+      : scene_(scene),
+        nodes_(static_cast<const Node*>(scene.nodes)),
+        rays_(rays),
+        count_(count),
+        results_(results),
+        memory_(memory) {
+    const auto* nodes = static_cast<const uint8_t*>(scene.nodes);
+    const auto* blocks = reinterpret_cast<const uint8_t*>(scene.blocks);
+    for (auto& queue : memory.queue) {
+      queue[kVisitNode] = {nodes, sizeof(Node), 0, {}};
+      queue[kVisitLeaf] = {blocks, sizeof(TriangleBlock), 0, {}};
+      queue[kVisitNothing] = {nodes, 0, 0, {}};
+    }
+    for (Ray& ray : memory.ray) free_[free_count_++] = &ray;
+    now_ = memory.queue[0];
+    next_ = memory.queue[1];
+  }
+
+  // Returns how many rays were not valid.
+  uint64_t trace() {
+    for (;;) {
+      for (int i = 0; i < kVisits; ++i) next_[i].count = 0;
+      for (size_t i = 0; i < now_[kVisitNothing].count; ++i) finish(*now_[kVisitNothing].ray[i]);
+      while (free_count_ >= RayVectors::kLanes && begun_ < count_) begin_rays();
+      for (size_t i = 0; i < now_[kVisitNode].count; ++i) visit_node(*now_[kVisitNode].ray[i]);
+      visit_leaves();
+      std::swap(now_, next_);
+      if (free_count_ == kWaveRays && begun_ == count_) return invalid_;
+    }
+  }
+
+ private:
+  // Rays on their way to places of the wave.
+  struct Places {
+    Ray* of[RayVectors::kLanes];
+
+    SlabRay& slabs(uint32_t i) const { return of[i]->slabs; }
+    void* block_ray(uint32_t i) const { return of[i]->block_ray; }
+    void* hit(uint32_t i) const { return of[i]->hit; }
+    void set_limit(uint32_t i, float limit) const { of[i]->set_limit(limit); }
+  };
+
+  // As many of the next rays as a vector has lanes, or all that are left.
+  HWY_INLINE void begin_rays() {
+    constexpr uint32_t kSome = RayVectors::kLanes;
+    const auto some = static_cast<uint32_t>(std::min<uint64_t>(kSome, count_ - begun_));
+    const sobb_ray* from = rays_ + begun_;
+    sobb_ray last[kSome];
+    if (some != kSome) {
+      for (uint32_t i = 0; i < kSome; ++i) last[i] = from[std::min(i, some - 1)];
+      from = last;
+    }
+    Places places;
+    for (Ray*& place : places.of) place = free_[--free_count_];
+    const uint32_t valid = RayFiller<Places>(scene_, places).fill(from, 0);
+    for (uint32_t i = 0; i < kSome; ++i) {
+      if (i < some && (valid >> i & 1) != 0) {
+        begin(*places.of[i], begun_ + i);
+        append(next_[kVisitNode], *places.of[i]);
+        continue;
+      }
+      if (i < some) {
+        store_invalid(results_[begun_ + i]);
+        ++invalid_;
+      }
+      free_[free_count_++] = places.of[i];
+    }
+    begun_ += some;
+  }
+
+  static HWY_INLINE void begin(Ray& ray, uint64_t index) {
+    for (uint32_t j = 0; j < 3; ++j) {
+      const uint32_t falls = std::bit_cast<uint32_t>(ray.slabs.reciprocal[j]) >> 31;
+      ray.near_plane[j] = (2 * j + falls) * kPlane;
+    }
+    ray.stack[0] = kNoKey;
+    ray.top = ray.stack + 1;
+    ray.next = kRootKey;
+    ray.index = index;
+    ray.has_table = false;
+  }
+
+  HWY_INLINE void finish(Ray& ray) {
+    if (ray.next != kNoKey) [[unlikely]] {
+      append(now_[kVisitLeaf], ray);
+      return;
+    }
+    store(ray.best(), results_[ray.index]);
+    free_[free_count_++] = &ray;
+  }
+
+  static HWY_INLINE void append(WaveQueue<kWidth>& queue, Ray& ray) {
+    queue.ray[queue.count] = &ray;
+    ++queue.count;
+  }
+
+  // Takes what is next from the stack, and asks memory for it.
+  HWY_INLINE void pop(Ray& ray, StackKey* top) {
+    const StackKey last = ray.last;
+    StackKey key;
+    do key = *--top;
+    while (key > last);
+    ray.top = top;
+    ray.next = key;
+    WaveQueue<kWidth>& queue = next_[kVisitTable.of[key_triangles(key)]];
+    append(queue, ray);
+    const uint8_t* at = queue.base + key_index(key) * queue.stride;
+    for (size_t line = 0; line < sizeof(Node); line += 64) hwy::Prefetch(at + line);
+  }
+
+  // The children's intervals along the frame.
+  static HWY_INLINE void clip_on_frame(const Ray& ray, const Node& node, size_t first,
+                                       hn::Vec<ChildFloats<kWidth>>& near,
+                                       hn::Vec<ChildFloats<kWidth>>& far) {
+    const ChildFloats<kWidth> d;
+    const auto* planes = reinterpret_cast<const uint8_t*>(node.slab) + first * sizeof(float);
+    const auto load = [&](size_t at) HWY_ATTR {
+      return hn::Load(d, reinterpret_cast<const float*>(planes + at));
+    };
+    const SlabRay& slabs = ray.slabs;
+    for (int j = 0; j < 3; ++j) {
+      const auto r = hn::Set(d, slabs.reciprocal[j]);
+      const size_t at = ray.near_plane[j];
+      near = hn::Max(near, hn::MulAdd(load(at), r, hn::Set(d, slabs.near[j])));
+      far = hn::Min(far, hn::MulAdd(load(at ^ kPlane), r, hn::Set(d, slabs.far[j])));
+    }
+  }
+
+  HWY_INLINE void clip(Ray& ray, const Node& node, size_t first, hn::Vec<ChildFloats<kWidth>>& near,
+                       hn::Vec<ChildFloats<kWidth>>& far) {
+    if constexpr (HasFrameNodes<Volumes>) {
+      if (!Volumes::on_frame(node)) [[unlikely]] {
+        if (!ray.has_table) make_table(ray);
+        Volumes::clip(ray.directions(), node, first, near, far);
+        return;
+      }
+    }
+    clip_on_frame(ray, node, first, near, far);
+  }
+
+  HWY_NOINLINE void make_table(Ray& ray) {
+    new (ray.table) RayTable(scene_, ray.slabs);
+    ray.has_table = true;
+  }
+
+  HWY_INLINE void visit_node(Ray& ray) {
+    const ChildFloats<kWidth> d;
+    const hn::RebindToUnsigned<decltype(d)> du;
+    const hn::Rebind<uint16_t, decltype(d)> d16;
+    using VU = hn::Vec<decltype(du)>;
+    const Node& node = nodes_[key_index(ray.next)];
+    // The keys' upper halves; all ones where a child is missed.
+    VU keys[kParts];
+    uint32_t missed_bits = 0;
+    for (size_t i = 0; i < kParts; ++i) {
+      const size_t first = i * kLanes;
+      auto near = hn::Set(d, ray.slabs.tmin);
+      auto far =
+          hn::Min(hn::Set(d, ray.limit), hn::Load(d, kChildLimits.of[child_count(node)] + first));
+      clip(ray, node, first, near, far);
+      const auto missed = hn::Gt(near, far);
+      missed_bits |= mask_bits(d, missed) << first;
+      const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
+      const auto distance = hn::AndNot(hn::Set(du, kKeyMetaMask), hn::BitCast(du, near));
+      keys[i] = hn::Or(hn::Or(distance, hn::And(meta, hn::Set(du, kTriangleMask))),
+                       hn::BitCast(du, hn::VecFromMask(d, missed)));
+    }
+    VU least = keys[0];
+    for (size_t i = 1; i < kParts; ++i) least = hn::Min(least, keys[i]);
+    least = hn::MinOfLanes(du, least);
+    uint32_t least_bits = 0;
+    for (size_t i = 0; i < kParts; ++i) {
+      least_bits |= mask_bits(du, hn::Eq(keys[i], least)) << (i * kLanes);
+    }
+    const auto nearest = static_cast<uint32_t>(std::countr_zero(least_bits));
+    const uint32_t met = missed_bits ^ ((1U << kWidth) - 1);
+    const uint32_t others = met & ~(1U << nearest);
+    StackKey* top = ray.top;
+    for (size_t i = 0; i < kParts; ++i) {
+      const size_t first = i * kLanes;
+      top = push(top, keys[i], hn::Load(du, node.reference + first),
+                 others >> first & ((1U << kLanes) - 1));
+    }
+    *top = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
+    top += met != 0 ? 1 : 0;
+    pop(ray, top);
+  }
+
+  // Keys of which a mask keeps some. Returns the stack's new top.
+  template <class VU>
+  static HWY_INLINE StackKey* push(StackKey* top, VU keys, VU references, uint32_t mask) {
+    const hn::DFromV<VU> du;
+    const hn::Rebind<uint8_t, decltype(du)> d8;
+    const hn::Repartition<uint64_t, decltype(du)> d64;
+    const auto lanes =
+        hn::IndicesFromVec(du, hn::PromoteTo(du, hn::LoadU(d8, kPushTable.lanes<kLanes>(mask))));
+    const VU high = hn::TableLookupLanes(keys, lanes);
+    const VU low = hn::TableLookupLanes(references, lanes);
+    const auto pushed = static_cast<uint32_t>(std::popcount(mask));
+    hn::StoreU(hn::BitCast(d64, hn::InterleaveLower(du, low, high)), d64, top);
+    if (pushed > kLanes / 2) [[unlikely]] {
+      hn::StoreU(hn::BitCast(d64, hn::InterleaveUpper(du, low, high)), d64, top + kLanes / 2);
+    }
+    return top + pushed;
+  }
+
+  // Tests all leaves' triangles, then takes the hits, then goes on.
+  HWY_INLINE void visit_leaves() {
+    const WaveQueue<kWidth>& leaves = now_[kVisitLeaf];
+    uint32_t count = 0;
+    for (size_t i = 0; i < leaves.count; ++i) {
+      count = meet_leaf(*leaves.ray[i], count);
+      if (count >= WaveMemory<kWidth>::kHits) [[unlikely]] {
+        take(count);
+        count = 0;
+      }
+    }
+    take(count);
+    for (size_t i = 0; i < leaves.count; ++i) pop(*leaves.ray[i], leaves.ray[i]->top);
+  }
+
+  HWY_INLINE uint32_t meet_leaf(Ray& ray, uint32_t count) {
+    const BlockRay& triangles = ray.triangles();
+    const float limit = ray.best().limit;
+    const TriangleBlock* block = scene_.blocks + key_index(ray.next);
+    const TriangleBlock* const end = block + blocks_of(key_triangles(ray.next));
+    do {
+      for (uint32_t first = 0; first < 4; first += BlockHits::kLanes) {
+        WaveHits<kWidth>& to = memory_.hits[count];
+        to.block = block;
+        to.first = first;
+        to.ray = &ray;
+        to.lanes = triangles.meet(*block, first, limit, to.hits);
+        count += to.lanes != 0 ? 1 : 0;
+      }
+    } while (++block != end);
+    return count;
+  }
+
+  HWY_INLINE void take(uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const WaveHits<kWidth>& of = memory_.hits[i];
+      Ray& ray = *of.ray;
+      ClosestHit& best = ray.best();
+      if (!ray.triangles().template offer<kQuery>(*of.block, of.first, of.lanes, of.hits, best)) {
+        continue;
+      }
+      if (kQuery == Query::kAny) {
+        ray.top = ray.stack + 1;  // nothing else to visit
+      } else {
+        ray.set_limit(scale_limit(best.limit, ray.slabs.scale));
+      }
+    }
+  }
+
+  static constexpr uint32_t kPlane = sizeof(float) * kWidth;  // from a lower plane to its upper one
+
+  const TraceScene& scene_;
+  const Node* nodes_;
+  const sobb_ray* rays_;
+  uint64_t count_;
+  Result* results_;
+  WaveMemory<kWidth>& memory_;
+  WaveQueue<kWidth>* now_;
+  WaveQueue<kWidth>* next_;
+  uint64_t begun_ = 0;
+  uint64_t invalid_ = 0;
+  uint32_t free_count_ = 0;
+  Ray* free_[kWaveRays];
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif
