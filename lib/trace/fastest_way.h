@@ -17,7 +17,7 @@ class FastestWay {
  public:
   static constexpr size_t kWays = 2;
   // Of so many tasks, each way is tried by one.
-  static constexpr uint64_t kTasksATry = 16;
+  static constexpr uint64_t kTasksATry = 64;
 
   // `first` is the way to begin with.
   explicit FastestWay(size_t first) : first_(first) {}

@@ -65,9 +65,9 @@ class Wave {
     const auto* nodes = static_cast<const uint8_t*>(scene.nodes);
     const auto* blocks = reinterpret_cast<const uint8_t*>(scene.blocks);
     for (auto& queue : memory.queue) {
-      queue[kVisitNode] = {nodes, sizeof(Node), 0, {}};
-      queue[kVisitLeaf] = {blocks, sizeof(TriangleBlock), 0, {}};
-      queue[kVisitNothing] = {nodes, 0, 0, {}};
+      queue[kVisitNode] = {nodes, sizeof(Node), sizeof(Node) - 64, 0, {}};
+      queue[kVisitLeaf] = {blocks, sizeof(TriangleBlock), 128, 0, {}};
+      queue[kVisitNothing] = {nodes, 0, 0, 0, {}};
     }
     for (Ray& ray : memory.ray) free_[free_count_++] = &ray;
     now_ = memory.queue[0];
@@ -163,7 +163,8 @@ class Wave {
     WaveQueue<kWidth>& queue = next_[kVisitTable.of[key_triangles(key)]];
     append(queue, ray);
     const uint8_t* at = queue.base + key_index(key) * queue.stride;
-    for (size_t line = 0; line < sizeof(Node); line += 64) hwy::Prefetch(at + line);
+    for (size_t line = 0; line + 64 < sizeof(Node); line += 64) hwy::Prefetch(at + line);
+    hwy::Prefetch(at + queue.last_line);
   }
 
   // The children's intervals along the frame.

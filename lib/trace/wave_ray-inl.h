@@ -79,6 +79,7 @@ template <int W>
 struct alignas(256) WaveQueue {
   const uint8_t* base;
   size_t stride;
+  size_t last_line;  // of what is there, from its first
   size_t count;
   WaveRay<W>* ray[kWaveRays];
 };
