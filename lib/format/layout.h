@@ -84,6 +84,12 @@ constexpr uint32_t child_count(const AnyNode& node) {
   return (node.meta[0] & kChildCountMask) >> kChildCountShift;
 }
 
+// Whether a node needs the table's first three directions, the frame, and no others.
+template <class AnyNode>
+constexpr bool on_frame(const AnyNode& node) {
+  return (node.meta[0] & kSharedBit) != 0 && node.basis[0] == kAxesBasis;
+}
+
 // Four triangles, structure of arrays. Unused lanes are zero with primitive kNoPrimitive. A leaf of
 // n triangles is ceil(n / 4) consecutive blocks, filled from the first lane on.
 struct alignas(16) TriangleBlock {

@@ -23,17 +23,16 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// kAxes: the hierarchy is of AABBs, its directions are 0, 1, 2 everywhere.
-template <int W, bool kAxes>
+// kFrame: all nodes are along the frame, so that nobody need ask.
+template <int W, bool kFrame>
 struct FileVolumes {
   static constexpr int kWidth = W;
-  static constexpr bool kAxesOnly = kAxes;
+  static constexpr bool kFrameOnly = kFrame;
   using Node = sobb::Node<W>;
-  using Ray = std::conditional_t<kAxes, FrameRay<W>, RayTable>;
+  using Ray = std::conditional_t<kFrame, FrameRay<W>, RayTable>;
 
-  // Whether a node needs the frame's directions only. Where all do, nobody asks.
-  static HWY_INLINE bool on_frame(const Node& node) requires(!kAxes) {
-    return (node.meta[0] & kSharedBit) != 0 && node.basis[0] == kAxesBasis;
+  static HWY_INLINE bool on_frame(const Node& node) requires(!kFrame) {
+    return sobb::on_frame(node);
   }
 
   template <class V = hn::Vec<ChildFloats<W>>>
@@ -46,7 +45,7 @@ struct FileVolumes {
   static HWY_INLINE void clip(const RayTable& table, const Node& node, size_t first, V& near,
                               V& far) {
     const bool shared = (node.meta[0] & kSharedBit) != 0;
-    if (shared && node.basis[0] == kAxesBasis) {
+    if (sobb::on_frame(node)) {
       // Where in the table is known: what is there need not wait for the node.
       for (uint32_t k = 0; k < 3; ++k) clip_shared<W>(table, node.slab[k], k, first, near, far);
       return;

@@ -23,16 +23,21 @@ namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
+// Calls a function with what the hierarchy's volumes are.
+template <class Function>
+uint64_t with_volumes(const Tracer& tracer, const Function& function) {
+  if (tracer.width == 4) {
+    return tracer.frame_only ? function(FileVolumes<4, true>()) : function(FileVolumes<4, false>());
+  }
+  return tracer.frame_only ? function(FileVolumes<8, true>()) : function(FileVolumes<8, false>());
+}
+
 template <Query kQuery, class Result>
 uint64_t trace(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
                sobb_count* counts) {
-  const auto with = [&](auto volumes) HWY_ATTR {
+  return with_volumes(tracer, [&](auto volumes) HWY_ATTR {
     return trace_rays<decltype(volumes), kQuery>(tracer, rays, count, results, counts);
-  };
-  if (tracer.width == 4) {
-    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
-  }
-  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
+  });
 }
 
 // Rays of a packet: those that are coherent together, in a few groups, then of a large packet what
@@ -99,28 +104,20 @@ template <Query kQuery, class Result>
 uint64_t trace_batch(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
                      void* scratch) {
   auto& batch = *new (scratch) StreamBatch;
-  const auto with = [&](auto volumes) HWY_ATTR {
+  return with_volumes(tracer, [&](auto volumes) HWY_ATTR {
     return trace_stream<decltype(volumes), kQuery>(tracer, rays, static_cast<uint32_t>(count),
                                                    results, batch);
-  };
-  if (tracer.width == 4) {
-    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
-  }
-  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
+  });
 }
 
 template <Query kQuery, class Result>
 uint64_t trace_wave(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
                     void* scratch) {
-  const auto with = [&](auto volumes) HWY_ATTR {
+  return with_volumes(tracer, [&](auto volumes) HWY_ATTR {
     using Volumes = decltype(volumes);
     auto& memory = *new (scratch) WaveMemory<Volumes::kWidth>;
     return Wave<Volumes, kQuery, Result>(tracer, rays, count, results, memory).trace();
-  };
-  if (tracer.width == 4) {
-    return tracer.axes_only ? with(FileVolumes<4, true>()) : with(FileVolumes<4, false>());
-  }
-  return tracer.axes_only ? with(FileVolumes<8, true>()) : with(FileVolumes<8, false>());
+  });
 }
 
 }  // namespace
@@ -146,6 +143,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace sobb {
+namespace {
+
+// Where one is not, that is told soon.
+template <int W>
+bool all_on_frame(const FileView& view) {
+  const auto nodes = view.nodes_of<W>();
+  return std::all_of(nodes.begin(), nodes.end(), on_frame<Node<W>>);
+}
+
+}  // namespace
 
 Tracer::Tracer(const FileView& view)
     : TraceScene{make_direction_table(view.directions),
@@ -154,7 +161,7 @@ Tracer::Tracer(const FileView& view)
                  view.nodes,
                  view.blocks.data()},
       width(view.header->width),
-      axes_only(view.header->volume == SOBB_VOLUME_AABB) {}
+      frame_only(view.header->width == 4 ? all_on_frame<4>(view) : all_on_frame<8>(view)) {}
 
 const TraceKernels& trace_kernels(sobb_isa isa) {
   return isa == SOBB_ISA_AVX2 ? N_AVX2::target_trace_kernels() : N_SSE4::target_trace_kernels();

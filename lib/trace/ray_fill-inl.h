@@ -171,9 +171,9 @@ class RayFiller {
     const uint32_t y = mask_bits(d, axis.y);
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       const int largest = (x >> lane & 1) != 0 ? 0 : 2 - static_cast<int>(y >> lane & 1);
-      const TriangleRay ray(largest, {origin[0][lane], origin[1][lane], origin[2][lane]},
-                            {shear[0][lane], shear[1][lane]}, along[lane]);
-      new (places_.block_ray(i + lane)) BlockRay(ray, tmin[lane]);
+      const double from[3] = {origin[0][lane], origin[1][lane], origin[2][lane]};
+      const double shears[2] = {shear[0][lane], shear[1][lane]};
+      new (places_.block_ray(i + lane)) BlockRay(tmin[lane], largest, from, shears, along[lane]);
     }
   }
 

@@ -59,7 +59,7 @@ HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit
 template <class Volumes, Query kQuery>
 class StreamTracer {
   static constexpr int kWidth = Volumes::kWidth;
-  static constexpr bool kAxes = Volumes::kAxesOnly;
+  static constexpr bool kFrame = Volumes::kFrameOnly;
 
  public:
   StreamTracer(const TraceScene& scene, StreamBatch& batch)
@@ -121,10 +121,9 @@ class StreamTracer {
   // Rays that meet a node; their children's lists go to the arena from `begin` on.
   HWY_INLINE void visit_node(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
                              uint32_t count, uint32_t begin) {
-    const bool shared = kAxes || (node.meta[0] & kSharedBit) != 0;
-    if (kAxes || (shared && node.basis[0] == kAxesBasis)) {
+    if (kFrame || on_frame(node)) {
       visit(stream, node, rays, count, begin, FrameNode<kWidth>(batch_, node, stream.octant));
-    } else if (shared) {
+    } else if ((node.meta[0] & kSharedBit) != 0) {
       visit(stream, node, rays, count, begin, SharedNode<kWidth>(scene_, batch_, node));
     } else {
       visit(stream, node, rays, count, begin, OwnNode<kWidth>(scene_, batch_, node));

@@ -23,7 +23,7 @@ struct TraceScene {
 // Prepared once a hierarchy; borrowed from its image.
 struct Tracer : TraceScene {
   uint32_t width;
-  bool axes_only;  // the volumes are AABBs
+  bool frame_only;  // all nodes are along the table's first three directions
 
   explicit Tracer(const FileView& view);
 };

@@ -50,8 +50,10 @@ struct BlockHits {
 // A ray before the triangles of a block.
 class BlockRay {
  public:
-  explicit BlockRay(const sobb_ray& ray) : BlockRay(TriangleRay(ray), ray.tmin) {}
-  BlockRay(const TriangleRay& ray, float tmin) : ray_(ray), tmin_(tmin) {}
+  explicit BlockRay(const sobb_ray& ray) : ray_(ray), tmin_(ray.tmin) {}
+  // Its TriangleRay made in place of what that is made of.
+  template <class... Parts>
+  explicit BlockRay(float tmin, const Parts&... parts) : ray_(parts...), tmin_(tmin) {}
 
   // Offers the block's hits to `best`. Returns whether it took one.
   template <Query kQuery>

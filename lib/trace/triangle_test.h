@@ -15,6 +15,7 @@
 #include <hwy/base.h>
 
 #include <algorithm>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
@@ -137,8 +138,12 @@ struct ClosestHit {
   }
 
   sobb_hit result() const {
-    if (primitive == SOBB_MISS) return missed(SOBB_MISS);
-    return {limit, u, v, primitive, 0, SOBB_MISS};
+    // Selected by bits, not branched to: whether a ray hits is not to be predicted.
+    const uint32_t miss = primitive == SOBB_MISS ? ~0U : 0;
+    const uint32_t t =
+        (std::bit_cast<uint32_t>(limit) & ~miss) | (std::bit_cast<uint32_t>(INFINITY) & miss);
+    static_assert(SOBB_MISS == ~0U);
+    return {std::bit_cast<float>(t), u, v, primitive, miss, SOBB_MISS};
   }
 
   // The result of a ray that hit nothing (SOBB_MISS) or is not valid (SOBB_INVALID).

@@ -83,7 +83,7 @@ struct alignas(256) WaveQueue {
   size_t count;
   WaveRay<W>* ray[kWaveRays];
 };
-static_assert(sizeof(WaveQueue<8>) == 256);
+static_assert(sizeof(WaveQueue<8>) <= 256);
 
 // Triangles of a block that a ray may hit.
 template <int W>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of rays that go through the nodes in batches: the same bits as ray by ray and the oracle,
-// whatever the arrays' lengths, the rays' octants, and the room that lists find; and with a host
-// that has no memory for them.
+// Arrays of rays, which are traced in batches or in waves, whichever is the faster: the same bits
+// as ray by ray and the oracle, whatever the arrays' lengths, the rays' octants, and the room that
+// lists find; and with a host that has no memory for them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ namespace sobb::test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// About the fewest rays of a batch, and the most.
+// About the fewest rays that are traced together, and the most of a task.
 constexpr size_t kLengths[] = {1, 255, 256, 257, 2047, 2048, 2049, 5000};
 
 struct Case {
@@ -57,35 +57,53 @@ uint8_t occlusion(const sobb_hit& hit) {
   return hit.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
 }
 
-// Closest and any hits of the first `count` rays, by every instruction set.
-void expect_hits(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays, size_t count,
-                 const std::vector<sobb_hit>& expected, const std::string& what,
-                 sobb_trace_options options = trace_options()) {
-  SCOPED_TRACE(what);
+// Closest and any hits of the first `count` rays.
+void expect_hits_by(uint32_t isa, const HierarchyHandle& hierarchy,
+                    const std::vector<sobb_ray>& rays, size_t count,
+                    const std::vector<sobb_hit>& expected, sobb_trace_options options) {
   uint64_t invalid_expected = 0;
   for (size_t i = 0; i < count; ++i) invalid_expected += expected[i].primitive == SOBB_INVALID;
   const sobb_hit untouched = {-7, 0, 0, 0, 0, 0};
+  uint64_t invalid = 12345;
+  options.isa = isa;
+  options.invalid_rays = &invalid;
+  std::vector<sobb_hit> hits(count + 1, untouched);
+  ASSERT_EQ(sobb_intersect(hierarchy.get(), rays.data(), count, hits.data(), &options), SOBB_OK);
+  ASSERT_EQ(invalid, invalid_expected);
+  std::vector<uint8_t> occluded(count + 1, 77);
+  ASSERT_EQ(sobb_occluded(hierarchy.get(), rays.data(), count, occluded.data(), &options), SOBB_OK);
+  ASSERT_EQ(invalid, invalid_expected);
+  for (size_t i = 0; i < count; ++i) {
+    ASSERT_TRUE(same(hits[i], expected[i]))
+        << "isa " << isa << ", ray " << i << " of " << count << " hits " << hits[i].primitive
+        << " at " << hits[i].t << ", not " << expected[i].primitive << " at " << expected[i].t;
+    ASSERT_EQ(occluded[i], occlusion(expected[i])) << "isa " << isa << ", ray " << i;
+  }
+  ASSERT_TRUE(same(hits[count], untouched)) << "written past the end";
+  ASSERT_EQ(occluded[count], 77) << "written past the end";
+}
+
+// The same by every instruction set; and behind a task of invalid rays, so that those of the first
+// task are traced in the second one's way.
+void expect_hits(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays, size_t count,
+                 const std::vector<sobb_hit>& expected, const std::string& what,
+                 const sobb_trace_options& options = trace_options()) {
+  SCOPED_TRACE(what);
+  constexpr size_t kTask = 2048;
+  std::vector<sobb_ray> behind(kTask, sobb_ray{});
+  std::vector<sobb_hit> expected_behind(
+      kTask, sobb_hit{kInfinity, 0, 0, SOBB_INVALID, SOBB_MISS, SOBB_MISS});
+  behind.insert(behind.end(), rays.begin(), rays.begin() + static_cast<ptrdiff_t>(count));
+  expected_behind.insert(expected_behind.end(), expected.begin(),
+                         expected.begin() + static_cast<ptrdiff_t>(count));
   for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
     sobb_isa resolved;
     if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
-    uint64_t invalid = 12345;
-    options.isa = isa;
-    options.invalid_rays = &invalid;
-    std::vector<sobb_hit> hits(count + 1, untouched);
-    ASSERT_EQ(sobb_intersect(hierarchy.get(), rays.data(), count, hits.data(), &options), SOBB_OK);
-    ASSERT_EQ(invalid, invalid_expected);
-    std::vector<uint8_t> occluded(count + 1, 77);
-    ASSERT_EQ(sobb_occluded(hierarchy.get(), rays.data(), count, occluded.data(), &options),
-              SOBB_OK);
-    ASSERT_EQ(invalid, invalid_expected);
-    for (size_t i = 0; i < count; ++i) {
-      ASSERT_TRUE(same(hits[i], expected[i]))
-          << "isa " << isa << ", ray " << i << " of " << count << " hits " << hits[i].primitive
-          << " at " << hits[i].t << ", not " << expected[i].primitive << " at " << expected[i].t;
-      ASSERT_EQ(occluded[i], occlusion(expected[i])) << "isa " << isa << ", ray " << i;
-    }
-    ASSERT_TRUE(same(hits[count], untouched)) << "written past the end";
-    ASSERT_EQ(occluded[count], 77) << "written past the end";
+    expect_hits_by(isa, hierarchy, rays, count, expected, options);
+    if (testing::Test::HasFatalFailure()) return;
+    SCOPED_TRACE("behind a task of invalid rays");
+    expect_hits_by(isa, hierarchy, behind, behind.size(), expected_behind, options);
+    if (testing::Test::HasFatalFailure()) return;
   }
 }
 
