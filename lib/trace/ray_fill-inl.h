@@ -38,8 +38,21 @@ class RayFiller {
  public:
   RayFiller(const TraceScene& scene, Places places) : scene_(scene), places_(places) {}
 
-  // Makes as many rays as a vector has lanes, the first the i-th. Returns which are valid.
-  HWY_INLINE uint32_t fill(const sobb_ray* rays, uint32_t i) {
+  // Makes rays, at most as many as a vector has lanes, the first the i-th; the places of all lanes
+  // are written. Returns which are valid.
+  HWY_INLINE uint32_t fill(const sobb_ray* rays, uint32_t count, uint32_t i) {
+    if (count == kLanes) return fill_lanes(rays, i);
+    sobb_ray all[kLanes];
+    for (uint32_t lane = 0; lane < kLanes; ++lane) all[lane] = rays[std::min(lane, count - 1)];
+    return fill_lanes(all, i) & ((1U << count) - 1);
+  }
+
+ private:
+  using V = RayVectors::V;
+  using M = RayVectors::M;
+  static constexpr uint32_t kLanes = RayVectors::kLanes;
+
+  HWY_INLINE uint32_t fill_lanes(const sobb_ray* rays, uint32_t i) {
     const RayFloats d;
     const RayVectors some(rays);
     V size[3];
@@ -65,11 +78,6 @@ class RayFiller {
     }
     return valid;
   }
-
- private:
-  using V = RayVectors::V;
-  using M = RayVectors::M;
-  static constexpr uint32_t kLanes = RayVectors::kLanes;
 
   // As is_valid() of one ray.
   static HWY_INLINE M is_valid(const RayVectors& rays, const V (&size)[3], V largest) {

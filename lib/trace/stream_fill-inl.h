@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A batch's rays made ready. Included once for each Highway
-// target.
+// A batch's rays made ready. Included once for each Highway target.
 #if defined(SOBB_TRACE_STREAM_FILL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_STREAM_FILL_INL_H
 #undef SOBB_TRACE_STREAM_FILL_INL_H
@@ -52,13 +51,7 @@ HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, ui
   uint32_t invalid = 0;
   for (uint32_t first = 0; first < count; first += kLanes) {
     const uint32_t some = std::min(kLanes, count - first);
-    const sobb_ray* from = rays + first;
-    sobb_ray last[kLanes];
-    if (some != kLanes) {
-      for (uint32_t i = 0; i < kLanes; ++i) last[i] = from[std::min(i, some - 1)];
-      from = last;
-    }
-    const uint32_t valid = filler.fill(from, first);
+    const uint32_t valid = filler.fill(rays + first, some, first);
     for (uint32_t i = 0; i < some; ++i) {
       if ((valid >> i & 1) == 0) {
         store_invalid(results[first + i]);

@@ -102,26 +102,19 @@ class Wave {
   HWY_INLINE void begin_rays() {
     constexpr uint32_t kSome = RayVectors::kLanes;
     const auto some = static_cast<uint32_t>(std::min<uint64_t>(kSome, count_ - begun_));
-    const sobb_ray* from = rays_ + begun_;
-    sobb_ray last[kSome];
-    if (some != kSome) {
-      for (uint32_t i = 0; i < kSome; ++i) last[i] = from[std::min(i, some - 1)];
-      from = last;
-    }
     Places places;
     for (Ray*& place : places.of) place = free_[--free_count_];
-    const uint32_t valid = RayFiller<Places>(scene_, places).fill(from, 0);
+    const uint32_t valid = RayFiller<Places>(scene_, places).fill(rays_ + begun_, some, 0);
     for (uint32_t i = 0; i < kSome; ++i) {
-      if (i < some && (valid >> i & 1) != 0) {
+      if ((valid >> i & 1) != 0) {
         begin(*places.of[i], begun_ + i);
         append(next_[kVisitNode], *places.of[i]);
         continue;
       }
-      if (i < some) {
-        store_invalid(results_[begun_ + i]);
-        ++invalid_;
-      }
       free_[free_count_++] = places.of[i];
+      if (i >= some) continue;
+      store_invalid(results_[begun_ + i]);
+      ++invalid_;
     }
     begun_ += some;
   }
