@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 #include "trace/file_volumes-inl.h"
 #include "trace/push_table.h"
@@ -50,6 +51,8 @@ class Wave {
   static constexpr int kWidth = Volumes::kWidth;
   static constexpr size_t kLanes = hn::MaxLanes(ChildFloats<kWidth>());
   static constexpr size_t kParts = kWidth / kLanes;
+  // Tables of directions fill the cache with fewer.
+  static constexpr uint32_t kRays = Volumes::kFrameOnly ? kWaveRays : kWaveRays * 2 / 3;
   using Node = typename Volumes::Node;
   using Ray = WaveRay<kWidth>;
 
@@ -69,7 +72,7 @@ class Wave {
       queue[kVisitLeaf] = {blocks, sizeof(TriangleBlock), 128, 0, {}};
       queue[kVisitNothing] = {nodes, 0, 0, 0, {}};
     }
-    for (Ray& ray : memory.ray) free_[free_count_++] = &ray;
+    for (Ray& ray : std::span(memory.ray).first(kRays)) free_[free_count_++] = &ray;
     now_ = memory.queue[0];
     next_ = memory.queue[1];
   }
@@ -83,7 +86,7 @@ class Wave {
       for (size_t i = 0; i < now_[kVisitNode].count; ++i) visit_node(*now_[kVisitNode].ray[i]);
       visit_leaves();
       std::swap(now_, next_);
-      if (free_count_ == kWaveRays && begun_ == count_) return invalid_;
+      if (free_count_ == kRays && begun_ == count_) return invalid_;
     }
   }
 
@@ -318,7 +321,7 @@ class Wave {
   uint64_t begun_ = 0;
   uint64_t invalid_ = 0;
   uint32_t free_count_ = 0;
-  Ray* free_[kWaveRays];
+  Ray* free_[kRays];
 };
 
 }  // namespace
