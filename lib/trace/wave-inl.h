@@ -55,6 +55,7 @@ class Wave {
   static constexpr uint32_t kRays = Volumes::kFrameOnly ? kWaveRays : kWaveRays * 2 / 3;
   using Node = typename Volumes::Node;
   using Ray = WaveRay<kWidth>;
+  using ChildWords = hn::RebindToUnsigned<ChildFloats<kWidth>>;
 
  public:
   Wave(const TraceScene& scene, const sobb_ray* rays, uint64_t count, Result* results,
@@ -198,15 +199,18 @@ class Wave {
     ray.has_table = true;
   }
 
-  HWY_INLINE void visit_node(Ray& ray) {
+  // Children that a ray meets: a bit each, and the upper halves of their keys.
+  struct Met {
+    uint32_t bits;
+    hn::Vec<ChildWords> keys[kParts];
+  };
+
+  HWY_INLINE Met meet(Ray& ray, const Node& node) {
     const ChildFloats<kWidth> d;
-    const hn::RebindToUnsigned<decltype(d)> du;
+    const ChildWords du;
     const hn::Rebind<uint16_t, decltype(d)> d16;
-    using VU = hn::Vec<decltype(du)>;
-    const Node& node = nodes_[key_index(ray.next)];
-    // The keys' upper halves; all ones where a child is missed.
-    VU keys[kParts];
-    uint32_t missed_bits = 0;
+    Met met;
+    met.bits = 0;
     for (size_t i = 0; i < kParts; ++i) {
       const size_t first = i * kLanes;
       auto near = hn::Set(d, ray.slabs.tmin);
@@ -214,31 +218,47 @@ class Wave {
           hn::Min(hn::Set(d, ray.limit), hn::Load(d, kChildLimits.of[child_count(node)] + first));
       clip(ray, node, first, near, far);
       const auto missed = hn::Gt(near, far);
-      missed_bits |= mask_bits(d, missed) << first;
+      met.bits |= (mask_bits(d, missed) ^ ((1U << kLanes) - 1)) << first;
       const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
+      met.keys[i] = hn::And(meta, hn::Set(du, kTriangleMask));
+      if constexpr (kQuery == Query::kAny) continue;  // nothing is culled, and any order is as good
       const auto distance = hn::AndNot(hn::Set(du, kKeyMetaMask), hn::BitCast(du, near));
-      keys[i] = hn::Or(hn::Or(distance, hn::And(meta, hn::Set(du, kTriangleMask))),
-                       hn::BitCast(du, hn::VecFromMask(d, missed)));
+      met.keys[i] = hn::Or(met.keys[i], distance);
+      // So that those missed come last.
+      met.keys[i] = hn::Or(met.keys[i], hn::BitCast(du, hn::VecFromMask(d, missed)));
     }
-    VU least = keys[0];
-    for (size_t i = 1; i < kParts; ++i) least = hn::Min(least, keys[i]);
+    return met;
+  }
+
+  HWY_INLINE void visit_node(Ray& ray) {
+    const Node& node = nodes_[key_index(ray.next)];
+    const Met met = meet(ray, node);
+    if constexpr (kQuery == Query::kAny) {
+      pop(ray, push(ray.top, met, met.bits, node));
+      return;
+    }
+    const ChildWords du;
+    auto least = met.keys[0];
+    for (size_t i = 1; i < kParts; ++i) least = hn::Min(least, met.keys[i]);
     least = hn::MinOfLanes(du, least);
     uint32_t least_bits = 0;
     for (size_t i = 0; i < kParts; ++i) {
-      least_bits |= mask_bits(du, hn::Eq(keys[i], least)) << (i * kLanes);
+      least_bits |= mask_bits(du, hn::Eq(met.keys[i], least)) << (i * kLanes);
     }
     const auto nearest = static_cast<uint32_t>(std::countr_zero(least_bits));
-    const uint32_t met = missed_bits ^ ((1U << kWidth) - 1);
-    const uint32_t others = met & ~(1U << nearest);
-    StackKey* top = ray.top;
+    StackKey* const top = push(ray.top, met, met.bits & ~(1U << nearest), node);
+    *top = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
+    pop(ray, top + (met.bits != 0 ? 1 : 0));
+  }
+
+  // Those of the children met that a mask keeps. Returns the stack's new top.
+  static HWY_INLINE StackKey* push(StackKey* top, const Met& met, uint32_t kept, const Node& node) {
     for (size_t i = 0; i < kParts; ++i) {
       const size_t first = i * kLanes;
-      top = push(top, keys[i], hn::Load(du, node.reference + first),
-                 others >> first & ((1U << kLanes) - 1));
+      top = push(top, met.keys[i], hn::Load(ChildWords(), node.reference + first),
+                 kept >> first & ((1U << kLanes) - 1));
     }
-    *top = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
-    top += met != 0 ? 1 : 0;
-    pop(ray, top);
+    return top;
   }
 
   // Keys of which a mask keeps some. Returns the stack's new top.
