@@ -9,10 +9,10 @@
 namespace sobb {
 
 struct PushTable {
-  alignas(64) uint8_t of_4[16][4];  // by mask; zero behind those kept
-  alignas(64) uint8_t of_8[256][8];
+  alignas(64) uint8_t of_4[16][4] = {};  // by mask; zero behind those kept
+  alignas(64) uint8_t of_8[256][8] = {};
 
-  constexpr PushTable() : of_4{}, of_8{} {
+  constexpr PushTable() {
     for (uint32_t mask = 0; mask < 16; ++mask) {
       uint32_t kept = 0;
       for (uint8_t i = 0; i < 4; ++i) {

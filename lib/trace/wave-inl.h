@@ -36,9 +36,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Limits that lanes without a child do not reach, by the number of children.
 struct ChildLimits {
-  alignas(64) float of[16][8];
+  alignas(64) float of[16][8] = {};
 
-  constexpr ChildLimits() : of{} {
+  constexpr ChildLimits() {
     for (int children = 0; children < 16; ++children) {
       for (int i = 0; i < 8; ++i) of[children][i] = i < children ? INFINITY : -1.0F;
     }

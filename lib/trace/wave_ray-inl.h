@@ -64,9 +64,9 @@ enum Visit : uint8_t { kVisitNode, kVisitLeaf, kVisitNothing, kVisits };
 
 // By the triangles that its key names. With kNoKey's there may be a leaf.
 struct VisitTable {
-  Visit of[kTriangleMask + 1];
+  Visit of[kTriangleMask + 1] = {};
 
-  constexpr VisitTable() : of{} {
+  constexpr VisitTable() {
     for (Visit& visit : of) visit = kVisitLeaf;
     of[0] = kVisitNode;
     of[key_triangles(kNoKey)] = kVisitNothing;
