@@ -34,10 +34,10 @@ Statistics measure_nodes(const FileView& view) {
       sum.leaves += leaf;
       (leaf ? sum.leaf_area : sum.inner_area) += child_area(node, i, view.directions);
     }
-    if ((node.meta[0] & kSharedBit) == 0) {
-      ++sum.own_nodes;
+    if (on_frame(node)) {
+      ++sum.axes_nodes;
     } else {
-      ++(node.basis[0] == kAxesBasis ? sum.axes_nodes : sum.shared_nodes);
+      ++((node.meta[0] & kSharedBit) != 0 ? sum.shared_nodes : sum.own_nodes);
     }
   }
   const double whole = box_area(*view.record);

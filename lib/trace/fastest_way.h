@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -37,13 +38,14 @@ class FastestWay {
     const float now = std::chrono::duration<float>(time).count() / static_cast<float>(rays);
     const float before = time_[way].load(std::memory_order_relaxed);
     // A task that another program held up counts as one of twice the time at most.
-    const float next = before == 0 ? now : (before + std::min(now, 2 * before)) / 2;
+    const float next = std::isinf(before) ? now : (before + std::min(now, 2 * before)) / 2;
     time_[way].store(next, std::memory_order_relaxed);
   }
 
  private:
   size_t first_;
-  std::atomic<float> time_[kWays] = {0.0F, 0.0F};  // seconds a ray; 0 before the first
+  // Seconds a ray. A way that no task has ended yet in, on several threads, is not preferred.
+  std::atomic<float> time_[kWays] = {INFINITY, INFINITY};
 };
 
 }  // namespace sobb

@@ -37,6 +37,16 @@ TEST(FastestWay, TriesBothInTheOrderAskedFor) {
   }
 }
 
+TEST(FastestWay, PrefersNoWayThatHasNotEndedATask) {
+  for (const size_t ended : {0, 1}) {
+    for (const size_t first : {0, 1}) {
+      FastestWay fastest(first);  // of several threads, one is done
+      fastest.took(ended, microseconds(100), kRays);
+      EXPECT_EQ(fastest.of_task(2), ended);
+    }
+  }
+}
+
 TEST(FastestWay, KeepsToTheFaster) {
   for (const size_t faster : {0, 1}) {
     FastestWay fastest(1 - faster);

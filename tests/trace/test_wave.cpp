@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "format/layout.h"
-#include "support/soups.h"
 #include "trace/push_table.h"
 #include "trace/tracer.h"
 
