@@ -1,51 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of two ways to trace an array's rays is the faster: that depends on the rays, the scene's
-// size and the machine's memory, so it is told by the time that each took of late. Results do not
-// depend on it.
+// The fastest of several ways to trace an array of rays, told by the clock while it is traced.
+//
+// What a ray costs differs from task to task by more than from way to way. So the ways are compared
+// within a task, over rays that are neighbours: most of them go the way that is best so far, some
+// each of the others.
 #pragma once
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <cmath>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 
 namespace sobb {
 
 // Of one array, whose tasks of rays are numbered. Thread-safe.
+template <size_t kWays>
 class FastestWay {
  public:
-  static constexpr size_t kWays = 2;
-  // Of so many tasks, each way is tried by one.
-  static constexpr uint64_t kTasksATry = 64;
+  // One task in so many compares the ways, and more of the first ones. Odd: a picture's row of
+  // tiles mostly is an even number of tasks, and its left side not like its right one.
+  static constexpr uint64_t kTasksAComparison = 17;
+  // A way that takes so many times as long as the best is tried in fewer.
+  static constexpr float kHopeless = 1.5F;
+  static constexpr uint64_t kTasksAnotherChance = 4 * kTasksAComparison;
 
-  // `first` is the way to begin with.
-  explicit FastestWay(size_t first) : first_(first) {}
+  // What a task does.
+  struct Turn {
+    size_t best;        // the way for its rays, or for most of them
+    uint32_t compared;  // a bit for each way that has some, where ways are compared, or 0
+  };
 
-  // The way for a task.
-  size_t of_task(uint64_t task) const {
-    const uint64_t turn = task % kTasksATry;
-    if (turn < kWays) return (first_ + turn) % kWays;
-    const float times[kWays] = {time_[0].load(std::memory_order_relaxed),
-                                time_[1].load(std::memory_order_relaxed)};
-    if (times[0] == times[1]) return first_;
-    return times[0] < times[1] ? 0 : 1;
+  // `first` is the best until some task has told otherwise.
+  explicit FastestWay(size_t first) : best_(first) {}
+
+  Turn turn(uint64_t task) {
+    Turn turn{best_.load(std::memory_order_relaxed), 0};
+    // Not the first one: its memory and the caches are cold.
+    if (task == 0 || (task % kTasksAComparison != 0 && !std::has_single_bit(task))) return turn;
+    const std::lock_guard lock(mutex_);
+    for (size_t way = 0; way < kWays; ++way) {
+      const bool hopeless = time_[way] > kHopeless * time_[turn.best];
+      if (!hopeless || task % kTasksAnotherChance == 0) turn.compared |= 1U << way;
+    }
+    return turn;
   }
 
-  // What a task of some rays took.
-  void took(size_t way, std::chrono::steady_clock::duration time, uint64_t rays) {
-    const float now = std::chrono::duration<float>(time).count() / static_cast<float>(rays);
-    const float before = time_[way].load(std::memory_order_relaxed);
-    // A task that another program held up counts as one of twice the time at most.
-    const float next = std::isinf(before) ? now : (before + std::min(now, 2 * before)) / 2;
-    time_[way].store(next, std::memory_order_relaxed);
+  // What a ray took by each way that had some.
+  void took(const Turn& turn, const float (&time)[kWays]) {
+    const std::lock_guard lock(mutex_);
+    for (size_t way = 0; way < kWays; ++way) {
+      if ((turn.compared >> way & 1) != 0) time_[way] = time_[way] / 2 + time[way];
+    }
+    best_.store(static_cast<size_t>(std::min_element(time_, time_ + kWays) - time_),
+                std::memory_order_relaxed);
   }
 
  private:
-  size_t first_;
-  // Seconds a ray. A way that no task has ended yet in, on several threads, is not preferred.
-  std::atomic<float> time_[kWays] = {INFINITY, INFINITY};
+  std::atomic<size_t> best_;
+  std::mutex mutex_;
+  float time_[kWays] = {};  // of all comparisons, each halved with every later one
 };
 
 }  // namespace sobb

@@ -86,8 +86,8 @@ uint64_t trace_16(const Tracer& tracer, const sobb_ray* rays, uint32_t mask, Res
 }
 
 template <Query kQuery, class Result>
-uint64_t trace_coherent(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                        Result* results) {
+uint64_t trace_packets(const Tracer& tracer, const sobb_ray* rays, uint64_t count, Result* results,
+                       void* /*scratch*/) {
   uint64_t invalid = 0;
   for (uint64_t first = 0; first < count; first += 64) {
     const uint64_t size = std::min<uint64_t>(64, count - first);
@@ -123,17 +123,16 @@ uint64_t trace_wave(const Tracer& tracer, const sobb_ray* rays, uint64_t count, 
 }  // namespace
 
 const TraceKernels& target_trace_kernels() {
-  static constexpr TraceKernels kKernels = {std::max(sizeof(StreamBatch), sizeof(WaveMemory<8>)),
-                                            trace_batch<Query::kClosest, sobb_hit>,
-                                            trace_batch<Query::kAny, uint8_t>,
-                                            trace_wave<Query::kClosest, sobb_hit>,
-                                            trace_wave<Query::kAny, uint8_t>,
-                                            trace<Query::kClosest, sobb_hit>,
-                                            trace<Query::kAny, uint8_t>,
-                                            trace_coherent<Query::kClosest, sobb_hit>,
-                                            trace_coherent<Query::kAny, uint8_t>,
-                                            trace_16<Query::kClosest, sobb_hit>,
-                                            trace_16<Query::kAny, uint8_t>};
+  static constexpr TraceKernels kKernels = {
+      std::max(sizeof(StreamBatch), sizeof(WaveMemory<8>)),
+      {trace_batch<Query::kClosest, sobb_hit>, trace_wave<Query::kClosest, sobb_hit>,
+       trace_packets<Query::kClosest, sobb_hit>},
+      {trace_batch<Query::kAny, uint8_t>, trace_wave<Query::kAny, uint8_t>,
+       trace_packets<Query::kAny, uint8_t>},
+      trace<Query::kClosest, sobb_hit>,
+      trace<Query::kAny, uint8_t>,
+      trace_16<Query::kClosest, sobb_hit>,
+      trace_16<Query::kAny, uint8_t>};
   return kKernels;
 }
 

@@ -33,31 +33,31 @@ inline constexpr int kPacketSize = 16;
 // Rays of a batch, at most: enough for long lists, few enough for a cache of the second level.
 inline constexpr uint32_t kBatchRays = 2048;
 
+// Ways to trace an array of rays, each of which is the fastest for some.
+enum ArrayWay : uint8_t {
+  kBatchWay,   // up to kBatchRays together, which share nodes (stream-inl.h)
+  kWaveWay,    // each on a way of its own, in turns that hide what memory takes (wave-inl.h)
+  kPacketWay,  // 64 neighbours together (packet-inl.h)
+  kArrayWays,
+};
+
 // The kernels of one instruction set. Each returns how many rays were not valid. `counts` may be
 // null.
 struct TraceKernels {
-  // Two ways for an array of rays that need not be coherent, each with `scratch_bytes` of memory,
-  // aligned to 64: in a batch, at most kBatchRays, which shares nodes (stream-inl.h), and in a
-  // wave, which hides what memory takes (wave-inl.h).
+  template <class Result>
+  using Array = uint64_t (*)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
+                             Result* results, void* scratch);
+
+  // By ArrayWay, for up to kBatchRays rays, with `scratch_bytes` of memory, aligned to 64, of which
+  // kPacketWay needs none.
   size_t scratch_bytes;
-  uint64_t (*intersect_batch)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                              sobb_hit* hits, void* scratch);
-  uint64_t (*occluded_batch)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                             uint8_t* occluded, void* scratch);
-  uint64_t (*intersect_wave)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                             sobb_hit* hits, void* scratch);
-  uint64_t (*occluded_wave)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                            uint8_t* occluded, void* scratch);
+  Array<sobb_hit> intersect_array[kArrayWays];
+  Array<uint8_t> occluded_array[kArrayWays];
   // Ray by ray.
   uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                         sobb_count* counts);
   uint64_t (*occluded)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
                        uint8_t* occluded, sobb_count* counts);
-  // An array of rays of which neighbours take much the same way.
-  uint64_t (*intersect_coherent)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                                 sobb_hit* hits);
-  uint64_t (*occluded_coherent)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
-                                uint8_t* occluded);
   // A packet: bit i of `mask`, below kPacketSize, is for ray i.
   uint64_t (*intersect_packet)(const Tracer& tracer, const sobb_ray* rays, uint32_t mask,
                                sobb_hit* hits);

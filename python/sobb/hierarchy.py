@@ -122,7 +122,7 @@ class Hierarchy:
         """Closest hits.
 
         rays: ray_dtype, any shape; not copied if contiguous. coherent: neighbours in the array are
-        alike, trace them as packets. threads: at most this many; 0 for all. isa: "best", "sse4" or
+        alike, begin with packets. threads: at most this many; 0 for all. isa: "best", "sse4" or
         "avx2". Neither changes the result. counts: return the work done for each ray as well.
         out: where to write the hits, hit_dtype of the shape of `rays`, contiguous; a loop saves
         the time that new memory takes.

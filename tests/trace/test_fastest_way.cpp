@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice between two ways to trace, by what tasks are said to have taken.
+// The choice among ways to trace, by what tasks are said to have taken.
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cstddef>
 #include <cstdint>
 
 #include "trace/fastest_way.h"
@@ -10,66 +10,102 @@
 namespace sobb::test {
 namespace {
 
-using std::chrono::microseconds;
+constexpr size_t kWays = 3;
+using Fastest = FastestWay<kWays>;
 
-constexpr uint64_t kRays = 1000;
-
-// Tasks in their order, which take what `cost` says of a way. Returns how many took way 1.
-template <class Cost>
-uint64_t run(FastestWay& fastest, uint64_t first, uint64_t tasks, const Cost& cost) {
-  uint64_t ones = 0;
-  for (uint64_t task = first; task < first + tasks; ++task) {
-    const size_t way = fastest.of_task(task);
-    ones += way;
-    fastest.took(way, microseconds(cost(way)), kRays);
+// Tasks in their order, whose ways take what `time` says of one. Returns how often each way was the
+// task's, or one that it compared.
+struct Uses {
+  uint64_t best[kWays] = {};
+  uint64_t compared[kWays] = {};
+};
+template <class Time>
+Uses run(Fastest& fastest, uint64_t begin, uint64_t end, const Time& time) {
+  Uses uses;
+  for (uint64_t task = begin; task < end; ++task) {
+    const Fastest::Turn turn = fastest.turn(task);
+    ++uses.best[turn.best];
+    float times[kWays] = {};
+    for (size_t way = 0; way < kWays; ++way) {
+      if ((turn.compared >> way & 1) == 0) continue;
+      ++uses.compared[way];
+      times[way] = time(way);
+    }
+    if (turn.compared != 0) fastest.took(turn, times);
   }
-  return ones;
+  return uses;
 }
 
-TEST(FastestWay, TriesBothInTheOrderAskedFor) {
-  for (const size_t first : {0, 1}) {
-    FastestWay fastest(first);
-    EXPECT_EQ(fastest.of_task(0), first);
-    EXPECT_EQ(fastest.of_task(1), 1 - first);
-    EXPECT_EQ(fastest.of_task(2), first) << "where nothing is known";
-    EXPECT_EQ(fastest.of_task(FastestWay::kTasksATry), first);
-    EXPECT_EQ(fastest.of_task(FastestWay::kTasksATry + 1), 1 - first);
+TEST(FastestWay, BeginsWithTheOneAskedFor) {
+  for (size_t first = 0; first < kWays; ++first) {
+    Fastest fastest(first);
+    const Fastest::Turn turn = fastest.turn(0);
+    EXPECT_EQ(turn.best, first);
+    EXPECT_EQ(turn.compared, 0U) << "the first task is not like the others";
   }
 }
 
-TEST(FastestWay, PrefersNoWayThatHasNotEndedATask) {
-  for (const size_t ended : {0, 1}) {
-    for (const size_t first : {0, 1}) {
-      FastestWay fastest(first);  // of several threads, one is done
-      fastest.took(ended, microseconds(100), kRays);
-      EXPECT_EQ(fastest.of_task(2), ended);
+TEST(FastestWay, ComparesAllThen) {
+  Fastest fastest(2);
+  EXPECT_EQ(fastest.turn(1).compared, 0b111U);
+  EXPECT_EQ(fastest.turn(3).compared, 0U);
+  EXPECT_EQ(fastest.turn(Fastest::kTasksAComparison).compared, 0b111U);
+  EXPECT_EQ(fastest.turn(Fastest::kTasksAComparison + 1).compared, 0U);
+}
+
+TEST(FastestWay, KeepsToTheFastest) {
+  constexpr uint64_t kTasks = 4 * Fastest::kTasksAnotherChance;
+  for (size_t first = 0; first < kWays; ++first) {
+    for (size_t faster = 0; faster < kWays; ++faster) {
+      Fastest fastest(first);
+      const Uses uses =
+          run(fastest, 0, kTasks, [&](size_t way) { return way == faster ? 1.0F : 1.1F; });
+      EXPECT_EQ(uses.best[faster], first == faster ? kTasks : kTasks - 2);
     }
   }
 }
 
-TEST(FastestWay, KeepsToTheFaster) {
-  for (const size_t faster : {0, 1}) {
-    FastestWay fastest(1 - faster);
-    constexpr uint64_t kTasks = 4 * FastestWay::kTasksATry;
-    const uint64_t ones =
-        run(fastest, 0, kTasks, [&](size_t way) { return way == faster ? 100 : 130; });
-    EXPECT_EQ(faster == 1 ? ones : kTasks - ones, kTasks - 4) << "the slower is tried four times";
-  }
+TEST(FastestWay, TriesTheHopelessInFewerTasks) {
+  constexpr uint64_t kTasks = 64 * Fastest::kTasksAnotherChance;
+  Fastest fastest(0);
+  constexpr float kTimes[] = {1, 1.1F, 3};
+  const Uses uses = run(fastest, 0, kTasks, [&](size_t way) { return kTimes[way]; });
+  EXPECT_GE(uses.compared[1], kTasks / Fastest::kTasksAComparison);
+  EXPECT_GE(uses.compared[2], kTasks / Fastest::kTasksAnotherChance - 1);
+  EXPECT_LE(uses.compared[2], kTasks / Fastest::kTasksAnotherChance + 2);
 }
 
 TEST(FastestWay, FollowsRaysThatChange) {
-  FastestWay fastest(0);
-  run(fastest, 0, 64, [](size_t way) { return way == 0 ? 100 : 300; });
-  // From here on the other is the faster: each try brings its time half of the way down.
-  run(fastest, 64, 4 * 64, [](size_t way) { return way == 0 ? 300 : 100; });
-  EXPECT_EQ(run(fastest, 5 * 64 + 2, 62, [](size_t way) { return way == 0 ? 300 : 100; }), 62U);
+  constexpr uint64_t kTasks = 8 * Fastest::kTasksAnotherChance;
+  for (size_t then = 0; then < 2; ++then) {
+    Fastest fastest(0);
+    run(fastest, 0, kTasks, [&](size_t way) { return way == then ? 1.0F : 3.0F; });
+    const Uses uses =
+        run(fastest, kTasks, 2 * kTasks, [&](size_t way) { return way == 1 - then ? 1.0F : 3.0F; });
+    EXPECT_GE(uses.best[1 - then], kTasks - Fastest::kTasksAnotherChance);
+  }
 }
 
-TEST(FastestWay, ForgivesATaskThatWasHeldUp) {
-  FastestWay fastest(0);
-  run(fastest, 0, 64, [](size_t way) { return way == 0 ? 100 : 200; });
-  fastest.took(0, std::chrono::seconds(10), kRays);
-  EXPECT_EQ(fastest.of_task(66), 0U) << "it counts as twice the time at most, half of it new";
+// Rays that miss all say little: where those after them cost more, the others are tried again soon.
+TEST(FastestWay, IsNotBoundByRaysThatCostNothing) {
+  Fastest fastest(0);
+  constexpr uint64_t kEmpty = 4 * Fastest::kTasksAnotherChance;
+  constexpr float kSky[] = {1, 4, 8};
+  run(fastest, 0, kEmpty, [&](size_t way) { return kSky[way]; });
+  constexpr float kCrowd[] = {100, 70, 90};
+  const Uses uses = run(fastest, kEmpty + 1, kEmpty + 1 + 4 * Fastest::kTasksAComparison,
+                        [&](size_t way) { return kCrowd[way]; });
+  EXPECT_GE(uses.best[1], 2 * Fastest::kTasksAComparison);
+}
+
+TEST(FastestWay, IsNotLedAstrayByOneTask) {
+  Fastest fastest(0);
+  constexpr uint64_t kTasks = 8 * Fastest::kTasksAnotherChance;
+  run(fastest, 0, kTasks + 1, [](size_t way) { return way == 0 ? 1.0F : 1.4F; });
+  const Fastest::Turn held_up = fastest.turn(kTasks + Fastest::kTasksAnotherChance);
+  ASSERT_EQ(held_up.compared, 0b111U);
+  fastest.took(held_up, {1.6F, 1.4F, 1.4F});
+  EXPECT_EQ(fastest.turn(kTasks + 1).best, 0U);
 }
 
 }  // namespace

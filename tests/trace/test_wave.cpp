@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What waves are made of, and what no built hierarchy makes them meet. That they find the hits of
-// rays one by one is tests/capi/test_batches.cpp's.
+// rays one by one is test_arrays.cpp's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,8 +83,11 @@ TEST(Wave, VisitsTheLargestLeaf) {
     std::vector<sobb_hit> hits(rays.size());
     std::vector<uint8_t> occluded(rays.size());
     void* scratch = ::operator new (kernels.scratch_bytes, std::align_val_t{64});
-    EXPECT_EQ(kernels.intersect_wave(tracer, rays.data(), rays.size(), hits.data(), scratch), 0U);
-    EXPECT_EQ(kernels.occluded_wave(tracer, rays.data(), rays.size(), occluded.data(), scratch),
+    EXPECT_EQ(
+        kernels.intersect_array[kWaveWay](tracer, rays.data(), rays.size(), hits.data(), scratch),
+        0U);
+    EXPECT_EQ(kernels.occluded_array[kWaveWay](tracer, rays.data(), rays.size(), occluded.data(),
+                                               scratch),
               0U);
     ::operator delete (scratch, std::align_val_t{64});
     for (size_t i = 0; i < rays.size(); ++i) {

@@ -387,7 +387,7 @@ typedef struct sobb_count {
 
 /** Bits of sobb_trace_options::flags. */
 enum {
-  /** Neighbours in the array are alike (primary rays in tiles): trace them 64 at a time. */
+  /** Neighbours in the array are alike (primary rays in tiles): begin with 64 of them at a time. */
   SOBB_TRACE_COHERENT = 1
 };
 
@@ -411,10 +411,10 @@ enum { SOBB_FREE = 0, SOBB_OCCLUDED = 1, SOBB_OCCLUDED_INVALID = 255 };
  * @param hits @p count hits, written in the order of the rays. May not overlap @p rays.
  * @return SOBB_ERROR_INVALID_ARGUMENT or SOBB_ERROR_UNSUPPORTED_CPU. A ray that is not valid gets
  *         SOBB_INVALID and is counted; the others are traced all the same.
- * Without SOBB_TRACE_COHERENT and counts, 256 rays and more are traced together, in tasks of 2048,
- * in whichever of two ways the call finds the faster, which take about a megabyte a thread of the
- * hierarchy's allocator while it runs; without that memory, and else, rays are traced one by one,
- * to the same hits. Cost: about O(log n) a ray.
+ * Without counts, 256 rays and more are traced together, in tasks of 2048, in whichever of three
+ * ways the call finds the fastest, which take about a megabyte a thread of the hierarchy's
+ * allocator while it runs. Without that memory, and else, rays are traced one by one, or 64 at a
+ * time with SOBB_TRACE_COHERENT, to the same hits. Cost: about O(log n) a ray.
  */
 SOBB_API sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
                                     uint64_t count, sobb_hit* hits,

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tracing: arrays, packets, single rays, and the oracle.
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 
 #include "../guard.h"
 #include "base/isa.h"
 #include "base/scheduler.h"
 #include "base/scratch_pool.h"
 #include "hierarchy.h"
-#include "trace/fastest_way.h"
+#include "trace/array_tracer.h"
 #include "trace/oracle.h"
 
 using sobb::guard;
@@ -17,11 +15,6 @@ using sobb::kPacketSize;
 using sobb::require;
 
 namespace {
-
-// Rays a task. A batch is enough to drown its cost, and few enough to balance rays that differ.
-constexpr uint64_t kGrain = sobb::kBatchRays;
-// Fewer rays are not worth the memory that tracing them together takes.
-constexpr uint64_t kFewestTogether = 256;
 
 sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   const sobb_trace_options known = sobb::read_options(options, "trace options");
@@ -31,72 +24,28 @@ sobb_trace_options read_trace_options(const sobb_trace_options* options) {
   return known;
 }
 
-// The kernels of an array call.
-template <class Result>
-struct ArrayKernels {
-  using Way = uint64_t (*)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, void*);
-
-  uint64_t (*single)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
-  uint64_t (*coherent)(const sobb::Tracer&, const sobb_ray*, uint64_t, Result*);
-  Way ways[sobb::FastestWay::kWays];
-  size_t first_way;
-};
-
-// Rays that look for the closest hit mostly go ways of their own; those that look for any end
-// where they began, or at a light.
-ArrayKernels<sobb_hit> array_kernels(const sobb::TraceKernels& kernels, const sobb_hit*) {
-  return {kernels.intersect,
-          kernels.intersect_coherent,
-          {kernels.intersect_batch, kernels.intersect_wave},
-          1};
-}
-
-ArrayKernels<uint8_t> array_kernels(const sobb::TraceKernels& kernels, const uint8_t*) {
-  return {kernels.occluded,
-          kernels.occluded_coherent,
-          {kernels.occluded_batch, kernels.occluded_wave},
-          0};
-}
-
 // Checks the arguments of an array call, shares the array among threads, adds up the invalid rays.
 template <class Result>
 void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t count,
                  Result* results, const sobb_trace_options* options) {
   require(hierarchy, "hierarchy");
   const sobb_trace_options known = read_trace_options(options);
-  const sobb::TraceKernels& all_kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
-  const auto kernels = array_kernels(all_kernels, results);
+  const sobb::TraceKernels& kernels = sobb::trace_kernels(sobb::resolve_isa(known.isa));
   if (count != 0) {
     require(rays, "rays");
     require(results, "results");
   }
-  const sobb::Tracer& tracer = hierarchy->tracer;
   const bool coherent = (known.flags & SOBB_TRACE_COHERENT) != 0;
-  sobb::ScratchPool pool(*hierarchy->memory, all_kernels.scratch_bytes);
+  sobb::ScratchPool pool(*hierarchy->memory, kernels.scratch_bytes);
+  sobb::ArrayTracer<Result> tracer(hierarchy->tracer, kernels, coherent, pool);
   const sobb::Scheduler scheduler(known.threads, known.scheduler);
   std::atomic<uint64_t> invalid{0};
-  sobb::FastestWay fastest(kernels.first_way);
-  scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
-    const uint64_t size = end - begin;
+  scheduler.for_ranges(count, sobb::kBatchRays, [&](uint64_t begin, uint64_t end) {
     if (known.counts != nullptr) {
-      invalid += kernels.single(tracer, rays + begin, size, results + begin, known.counts + begin);
-      return;
+      invalid += tracer.count(rays + begin, end - begin, results + begin, known.counts + begin);
+    } else {
+      invalid += tracer.trace(begin / sobb::kBatchRays, rays + begin, end - begin, results + begin);
     }
-    if (coherent) {
-      invalid += kernels.coherent(tracer, rays + begin, size, results + begin);
-      return;
-    }
-    if (size >= kFewestTogether) {
-      const sobb::ScratchPool::Lease lease(pool);
-      if (lease.get() != nullptr) {
-        const size_t way = fastest.of_task(begin / kGrain);
-        const auto start = std::chrono::steady_clock::now();
-        invalid += kernels.ways[way](tracer, rays + begin, size, results + begin, lease.get());
-        fastest.took(way, std::chrono::steady_clock::now() - start, size);
-        return;
-      }
-    }
-    invalid += kernels.single(tracer, rays + begin, size, results + begin, nullptr);
   });
   if (known.invalid_rays != nullptr) *known.invalid_rays = invalid;
 }

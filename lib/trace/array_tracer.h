@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tasks of one array of rays, each traced in what the call has found to be the fastest way.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/scratch_pool.h"
+#include "trace/fastest_way.h"
+#include "trace/tracer.h"
+
+namespace sobb {
+
+// The kernels of a query, and the way that is likely to be the fastest.
+template <class Result>
+struct ArrayKernels {
+  uint64_t (*single)(const Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
+  const TraceKernels::Array<Result>* by_way;
+  ArrayWay likely;
+};
+
+// Rays that look for the closest hit mostly go ways of their own; those that look for any end
+// where they began, or at a light.
+inline ArrayKernels<sobb_hit> array_kernels(const TraceKernels& kernels, const sobb_hit*) {
+  return {kernels.intersect, kernels.intersect_array, kWaveWay};
+}
+inline ArrayKernels<uint8_t> array_kernels(const TraceKernels& kernels, const uint8_t*) {
+  return {kernels.occluded, kernels.occluded_array, kBatchWay};
+}
+
+// Borrows all that it is given. Thread-safe.
+template <class Result>
+class ArrayTracer {
+ public:
+  // `coherent`: neighbours are said to be alike.
+  ArrayTracer(const Tracer& tracer, const TraceKernels& kernels, bool coherent, ScratchPool& pool)
+      : tracer_(tracer),
+        kernels_(array_kernels(kernels, static_cast<const Result*>(nullptr))),
+        coherent_(coherent),
+        pool_(pool),
+        fastest_(coherent ? kPacketWay : kernels_.likely) {}
+
+  // Traces a task's rays, at most kBatchRays. Returns how many were not valid.
+  uint64_t trace(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results) {
+    if (count >= kFewestTogether) {
+      const ScratchPool::Lease lease(pool_);
+      if (lease.get() != nullptr) return together(task, rays, count, results, lease.get());
+    }
+    if (coherent_) return kernels_.by_way[kPacketWay](tracer_, rays, count, results, nullptr);
+    return kernels_.single(tracer_, rays, count, results, nullptr);
+  }
+
+  // Likewise, ray by ray, and says what each took.
+  uint64_t count(const sobb_ray* rays, uint64_t count, Result* results, sobb_count* counts) const {
+    return kernels_.single(tracer_, rays, count, results, counts);
+  }
+
+ private:
+  using Fastest = FastestWay<kArrayWays>;
+
+  // Fewer rays are not worth the memory that tracing them together takes.
+  static constexpr uint64_t kFewestTogether = 256;
+  // Rays of a task that tell what a way takes. Batches are the faster the larger they are.
+  static constexpr uint64_t kCompared[kArrayWays] = {kBatchRays / 2, 256, 256};
+
+  uint64_t together(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results,
+                    void* scratch) {
+    const typename Fastest::Turn turn = fastest_.turn(task);
+    if (turn.compared == 0 || count < kBatchRays) {
+      return kernels_.by_way[turn.best](tracer_, rays, count, results, scratch);
+    }
+    uint64_t part[kArrayWays] = {};
+    part[turn.best] = count;
+    for (size_t way = 0; way < kArrayWays; ++way) {
+      if (way == turn.best || (turn.compared >> way & 1) == 0) continue;
+      part[way] = kCompared[way];
+      part[turn.best] -= part[way];
+    }
+    float time[kArrayWays] = {};
+    uint64_t invalid = 0;
+    for (size_t i = 0; i < kArrayWays; ++i) {
+      // Each has its turn to be the first: what neighbours cost may rise or fall.
+      const size_t way = (task + i) % kArrayWays;
+      if (part[way] == 0) continue;
+      const auto start = std::chrono::steady_clock::now();
+      invalid += kernels_.by_way[way](tracer_, rays, part[way], results, scratch);
+      const std::chrono::duration<float> took = std::chrono::steady_clock::now() - start;
+      time[way] = took.count() / static_cast<float>(part[way]);
+      rays += part[way];
+      results += part[way];
+    }
+    fastest_.took(turn, time);
+    return invalid;
+  }
+
+  const Tracer& tracer_;
+  const ArrayKernels<Result> kernels_;
+  const bool coherent_;
+  ScratchPool& pool_;
+  Fastest fastest_;
+};
+
+}  // namespace sobb
