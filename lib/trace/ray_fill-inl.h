@@ -5,7 +5,6 @@
 // Where each is to go, `Places` says, by functions of the ray's number:
 //   slabs(i)       its SlabRay
 //   block_ray(i), hit(i)   memory for its BlockRay and ClosestHit
-//   set_limit(i, limit)    of its interval, in scaled units
 #if defined(SOBB_TRACE_RAY_FILL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_RAY_FILL_INL_H
 #undef SOBB_TRACE_RAY_FILL_INL_H
@@ -108,18 +107,14 @@ class RayFiller {
     }
     SlabRay* to[kLanes];
     for (uint32_t lane = 0; lane < kLanes; ++lane) to[lane] = &places_.slabs(i + lane);
+    const V limit = hn::Add(hn::Min(rays.tmax, hn::Set(d, FLT_MAX)), hn::Set(d, kSmallestFloat));
     const V scale = hn::Set(d, 1.0F);
-    const V zero = hn::Zero(d);
     store_rows(c[0].reciprocal, c[1].reciprocal, c[2].reciprocal, tmin, to, &SlabRay::reciprocal);
-    store_rows(c[0].near, c[1].near, c[2].near, scale, to, &SlabRay::near);
+    store_rows(c[0].near, c[1].near, c[2].near, limit, to, &SlabRay::near);
     store_rows(c[0].far, c[1].far, c[2].far, error, to, &SlabRay::far);
-    store_rows(origin[0], origin[1], origin[2], zero, to, &SlabRay::origin);
-    store_rows(rays.direction[0], rays.direction[1], rays.direction[2], zero, to,
+    store_rows(origin[0], origin[1], origin[2], scale, to, &SlabRay::origin);
+    store_rows(rays.direction[0], rays.direction[1], rays.direction[2], hn::Zero(d), to,
                &SlabRay::direction);
-    alignas(64) float limit[kLanes];
-    hn::Store(hn::Add(hn::Min(rays.tmax, hn::Set(d, FLT_MAX)), hn::Set(d, kSmallestFloat)), d,
-              limit);
-    for (uint32_t lane = 0; lane < kLanes; ++lane) places_.set_limit(i + lane, limit[lane]);
   }
 
   // Four numbers of each ray, to a member of its SlabRay and what follows it.
@@ -139,7 +134,7 @@ class RayFiller {
     }
   }
 
-  // Of one ray, whatever its size.
+  // Of one ray, whatever its size. Its hit is there.
   HWY_INLINE void fill_slabs(const ScaledRay& ray, uint32_t i) {
     const hn::CappedTag<float, 4> d;
     const DirectionTable& directions = scene_.directions;
@@ -160,7 +155,7 @@ class RayFiller {
       to.direction[k] = ray.direction[k];
     }
     const auto* best = std::launder(static_cast<const ClosestHit*>(places_.hit(i)));
-    places_.set_limit(i, scale_limit(best->limit, ray.scale));
+    to.limit = scale_limit(best->limit, ray.scale);
   }
 
   // As TriangleRay has them.

@@ -9,11 +9,13 @@ struct alignas(64) SlabRay {
   float reciprocal[3];
   float tmin;
   float near[3];
-  float scale;
+  float limit;  // of the interval, in scaled units; negative once an any-hit ray is done
   float far[3];
   float error;
-  float origin[4];  // the fourth is void, here and below
-  float direction[4];
+  float origin[3];
+  float scale;
+  float direction[3];
+  float unused;
 };
 
 }  // namespace sobb

@@ -33,7 +33,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr uint32_t kListRays = 4;
 
 // The rays of a list that have no hit nearer than it, packed. Returns how many.
-HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit) {
+HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const SlabRay* ray) {
   const hn::CappedTag<RayEntry, 8> du;
   const hn::RebindToFloat<decltype(du)> d;
   const hn::RebindToSigned<decltype(du)> di;
@@ -42,15 +42,19 @@ HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const float* limit
   uint32_t i = 0;
   for (; i + kLanes <= count; i += kLanes) {
     const auto entries = hn::LoadU(du, list + i);
-    const auto rays = hn::BitCast(di, hn::AndNot(hn::Set(du, kEntryDistance), entries));
+    constexpr int kStride = std::countr_zero(sizeof(SlabRay) / sizeof(float));
+    static_assert(sizeof(SlabRay) == sizeof(float) << kStride);
+    const auto rays = hn::AndNot(hn::Set(du, kEntryDistance), entries);
+    const auto limits =
+        hn::GatherIndex(d, &ray->limit, hn::BitCast(di, hn::ShiftLeft<kStride>(rays)));
     const auto distance = hn::BitCast(d, hn::And(entries, hn::Set(du, kEntryDistance)));
-    const auto kept = hn::Le(distance, hn::GatherIndex(d, limit, rays));
+    const auto kept = hn::Le(distance, limits);
     open += store_packed(entries, mask_bits(d, kept), list + open);
   }
   for (; i < count; ++i) {
     const RayEntry entry = list[i];
     list[open] = entry;
-    open += entry_distance(entry) <= limit[entry_ray(entry)] ? 1 : 0;
+    open += entry_distance(entry) <= ray[entry_ray(entry)].limit ? 1 : 0;
   }
   return open;
 }
@@ -75,7 +79,7 @@ class StreamTracer {
     const uint32_t count = item.count;
     if (count != 0) {
       visit_list(stream, key, begin, count, stale);
-    } else if (entry_distance(begin) <= batch_.limit[entry_ray(begin)]) {
+    } else if (entry_distance(begin) <= batch_.ray[entry_ray(begin)].limit) {
       if (key_is_leaf(key)) {
         test_triangles(key, entry_ray(begin));
         stream.stale = stream.top;
@@ -98,7 +102,7 @@ class StreamTracer {
   HWY_INLINE void visit_list(Stream& stream, StackKey key, uint32_t begin, uint32_t count,
                              bool stale) {
     RayEntry* list = stream.arena + begin;
-    const uint32_t open = stale ? keep_open(list, count, batch_.limit) : count;
+    const uint32_t open = stale ? keep_open(list, count, batch_.ray) : count;
     if (open == 0) return;
     if (key_is_leaf(key)) {
       for (uint32_t i = 0; i < open; ++i) test_triangles(key, entry_ray(list[i]));

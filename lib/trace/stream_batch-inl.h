@@ -59,7 +59,6 @@ struct StreamBatch {
   static constexpr uint32_t kArena = 16;
 
   SlabRay ray[kBatchRays];
-  float limit[kBatchRays];  // in scaled units; negative once an any-hit ray is done
   Stream stream[kOctants];
   // By octant before the streams begin, then by child, while a node is visited.
   RayEntry list[std::max(kOctants, kMostChildren)][kBatchRays + kSlack];
@@ -76,7 +75,7 @@ struct StreamBatch {
   // After a hit was taken.
   template <Query kQuery>
   void shorten(uint32_t i) {
-    limit[i] = kQuery == Query::kAny ? -1.0F : scale_limit(best(i).limit, ray[i].scale);
+    ray[i].limit = kQuery == Query::kAny ? -1.0F : scale_limit(best(i).limit, ray[i].scale);
   }
 };
 

@@ -29,7 +29,6 @@ struct BatchPlaces {
   SlabRay& slabs(uint32_t i) const { return batch.ray[i]; }
   void* block_ray(uint32_t i) const { return batch.block_rays[i]; }
   void* hit(uint32_t i) const { return batch.hits[i]; }
-  void set_limit(uint32_t i, float limit) const { batch.limit[i] = limit; }
 };
 
 // The signs of a ray's cosines with the first three directions, which say which planes are the near

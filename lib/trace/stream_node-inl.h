@@ -44,7 +44,7 @@ struct FrameNode {
     const ChildFloats<W> d;
     const SlabRay& ray = batch.ray[index];
     auto near = hn::Set(d, ray.tmin);
-    auto far = hn::Set(d, batch.limit[index]);
+    auto far = hn::Set(d, ray.limit);
     for (int j = 0; j < 3; ++j) {
       const auto r = hn::Set(d, ray.reciprocal[j]);
       near =
@@ -89,7 +89,7 @@ struct SharedNode {
     hn::Store(c.near, d4, nears);
     hn::Store(c.far, d4, fars);
     auto near = hn::Set(d, ray.tmin);
-    auto far = hn::Set(d, batch.limit[index]);
+    auto far = hn::Set(d, ray.limit);
     for (int j = 0; j < 3; ++j) {
       clip_slab<W>({hn::Set(d, reciprocal[j]), hn::Set(d, nears[j]), hn::Set(d, fars[j])},
                    node.slab[j], first, near, far);
@@ -121,7 +121,7 @@ struct OwnNode {
     const ChildFloats<W> d;
     const SlabRay& ray = batch.ray[index];
     auto near = hn::Set(d, ray.tmin);
-    auto far = hn::Set(d, batch.limit[index]);
+    auto far = hn::Set(d, ray.limit);
     for (int j = 0; j < 3; ++j) {
       const auto c = slab_coefficients(
           d, hn::Load(d, normal[j][0] + first), hn::Load(d, normal[j][1] + first),

@@ -99,7 +99,6 @@ class Wave {
     SlabRay& slabs(uint32_t i) const { return of[i]->slabs; }
     void* block_ray(uint32_t i) const { return of[i]->block_ray; }
     void* hit(uint32_t i) const { return of[i]->hit; }
-    void set_limit(uint32_t i, float limit) const { of[i]->set_limit(limit); }
   };
 
   // As many of the next rays as a vector has lanes, or all that are left.
@@ -128,6 +127,7 @@ class Wave {
       const uint32_t falls = std::bit_cast<uint32_t>(ray.slabs.reciprocal[j]) >> 31;
       ray.near_plane[j] = (2 * j + falls) * kPlane;
     }
+    ray.last = last_key(ray.slabs.limit);
     ray.stack[0] = kNoKey;
     ray.top = ray.stack + 1;
     ray.next = kRootKey;
@@ -215,7 +215,7 @@ class Wave {
       const size_t first = i * kLanes;
       auto near = hn::Set(d, ray.slabs.tmin);
       auto far =
-          hn::Min(hn::Set(d, ray.limit), hn::Load(d, kChildLimits.of[child_count(node)] + first));
+          hn::Min(hn::Set(d, ray.slabs.limit), hn::Load(d, kChildLimits.of[child_count(node)] + first));
       clip(ray, node, first, near, far);
       const auto missed = hn::Gt(near, far);
       met.bits |= (mask_bits(d, missed) ^ ((1U << kLanes) - 1)) << first;

@@ -34,8 +34,7 @@ struct alignas(64) WaveRay {
 
   SlabRay slabs;
   uint32_t near_plane[3];  // in bytes from a node's first plane
-  float limit;             // of the interval, in scaled units
-  StackKey last;           // last_key(limit)
+  StackKey last;           // last_key() of the limit
   StackKey* top;           // of the stack
   StackKey next;
   uint64_t index;  // in the array
@@ -54,7 +53,7 @@ struct alignas(64) WaveRay {
   }
 
   void set_limit(float to) {
-    limit = to;
+    slabs.limit = to;
     last = last_key(to);
   }
 };
