@@ -19,6 +19,7 @@
 #include "trace/file_volumes-inl.h"
 #include "trace/single-inl.h"
 #include "trace/stream_fill-inl.h"
+#include "trace/stream_lists-inl.h"
 #include "trace/stream_node-inl.h"
 #include "trace/trace_rays-inl.h"
 
@@ -29,8 +30,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// From this many rays on a list pays.
-inline constexpr uint32_t kListRays = 4;
+// So many rays of a list go on alone, whatever the node: they need no lists of children.
+inline constexpr uint32_t kAlone = 3;
 
 // The rays of a list that have no hit nearer than it, packed. Returns how many.
 HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const SlabRay* ray) {
@@ -112,7 +113,7 @@ class StreamTracer {
     // The children's lists may be kWidth times as long. Where there is no room for that, the rest
     // of this one waits.
     const uint32_t room = (stream.capacity - begin - open) / kWidth;
-    const uint32_t taken = std::min(open, std::max(room, kListRays - 1));
+    const uint32_t taken = std::min(open, std::max(room, kAlone));
     const uint32_t rest = open - taken;
     if (rest != 0) push(stream, key, begin, rest);
     visit_node(stream, nodes_[key_index(key)], list + rest, taken, begin + rest);
@@ -126,35 +127,38 @@ class StreamTracer {
   HWY_INLINE void visit_node(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
                              uint32_t count, uint32_t begin) {
     if (kFrame || on_frame(node)) {
-      visit(stream, node, rays, count, begin, FrameNode<kWidth>(batch_, node, stream.octant));
+      visit(stream, node, rays, count, begin, FrameNode<kWidth>(node, stream.octant));
     } else if ((node.meta[0] & kSharedBit) != 0) {
-      visit(stream, node, rays, count, begin, SharedNode<kWidth>(scene_, batch_, node));
+      visit(stream, node, rays, count, begin, SharedNode<kWidth>(scene_, node));
     } else {
-      visit(stream, node, rays, count, begin, OwnNode<kWidth>(scene_, batch_, node));
+      visit(stream, node, rays, count, begin, OwnNode<kWidth>(scene_, node));
     }
   }
 
-  template <class EntriesOf>
+  template <class NodeTest>
   HWY_INLINE void visit(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
-                        uint32_t count, uint32_t begin, const EntriesOf& entries_of) {
-    if (count >= kListRays) {
-      visit_together(stream, node, rays, count, begin, entries_of);
+                        uint32_t count, uint32_t begin, const NodeTest& test) {
+    static_assert(NodeTest::kFewest > kAlone);
+    if (count >= NodeTest::kFewest) {
+      visit_together(stream, node, rays, count, begin, test);
       return;
     }
-    for (uint32_t i = 0; i < count; ++i) visit_alone(stream, node, entry_ray(rays[i]), entries_of);
+    for (uint32_t i = 0; i < count; ++i) visit_alone(stream, node, entry_ray(rays[i]), test);
   }
 
   // The children that one ray meets, the nearest on top.
-  template <class EntriesOf>
+  template <class NodeTest>
   HWY_INLINE void visit_alone(Stream& stream, const Node<kWidth>& node, uint32_t ray,
-                              const EntriesOf& entries_of) {
-    const ChildEntries<kWidth> d;
+                              const NodeTest& test) {
+    const ChildFloats<kWidth> d;
+    const ChildEntries<kWidth> du;
     alignas(64) RayEntry entry[kWidth];
     uint32_t met = 0;
     for (size_t first = 0; first < kWidth; first += hn::MaxLanes(d)) {
-      const auto entries = entries_of(ray, first);
-      hn::Store(entries, d, entry + first);
-      met |= met_bits(entries) << first;
+      const ChildIntervals<kWidth> of = test.alone(batch_.ray[ray], first);
+      const auto distances = hn::And(hn::BitCast(du, of.near), hn::Set(du, kEntryDistance));
+      hn::Store(hn::Or(distances, hn::Set(du, ray)), du, entry + first);
+      met |= mask_bits(d, hn::Le(of.near, of.far)) << first;
     }
     met &= (1U << child_count(node)) - 1;
     StreamItem* const base = stream.item + stream.top;
@@ -171,13 +175,13 @@ class StreamTracer {
   }
 
   // The children that rays of a list meet, on top the one whose nearest ray is nearest.
-  template <class EntriesOf>
+  template <class NodeTest>
   HWY_INLINE void visit_together(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
-                                 uint32_t count, uint32_t begin, const EntriesOf& entries_of) {
+                                 uint32_t count, uint32_t begin, const NodeTest& test) {
     ChildLists<kWidth> lists;
     for (int i = 0; i < kWidth; ++i) lists.list[i] = batch_.list[i];
     const uint32_t children = child_count(node);
-    fill_lists<kWidth>(rays, count, children, entries_of, lists);
+    fill_lists<kQuery>(batch_.ray, rays, count, children, test, lists);
 
     uint64_t order[kWidth];  // the nearest entry, the child
     uint32_t met = 0;

@@ -40,8 +40,8 @@ struct StreamItem {
 // Rays of one octant on their way through the hierarchy.
 struct Stream {
   // Every level leaves seven children behind, and perhaps a part of its own list; one of them may
-  // be where the lists end, at three rays with eight children each.
-  static constexpr uint32_t kMaxItems = kMaxDepth * 8 + 3 * 8;
+  // be where the lists end, at seven rays with eight children each.
+  static constexpr uint32_t kMaxItems = kMaxDepth * 8 + 7 * 8;
 
   RayEntry* arena;    // the lists of the items, one after another
   uint32_t capacity;  // of the arena

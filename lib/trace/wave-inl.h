@@ -214,8 +214,8 @@ class Wave {
     for (size_t i = 0; i < kParts; ++i) {
       const size_t first = i * kLanes;
       auto near = hn::Set(d, ray.slabs.tmin);
-      auto far =
-          hn::Min(hn::Set(d, ray.slabs.limit), hn::Load(d, kChildLimits.of[child_count(node)] + first));
+      auto far = hn::Min(hn::Set(d, ray.slabs.limit),
+                         hn::Load(d, kChildLimits.of[child_count(node)] + first));
       clip(ray, node, first, near, far);
       const auto missed = hn::Gt(near, far);
       met.bits |= (mask_bits(d, missed) ^ ((1U << kLanes) - 1)) << first;
