@@ -149,12 +149,10 @@ class Wave {
     ++queue.count;
   }
 
-  // Takes what is next from the stack, and asks memory for it.
-  HWY_INLINE void pop(Ray& ray, StackKey* top) {
+  // Takes what is next: `key`, or from the stack, if that matters no more. Asks memory for it.
+  HWY_INLINE void go_on(Ray& ray, StackKey* top, StackKey key) {
     const StackKey last = ray.last;
-    StackKey key;
-    do key = *--top;
-    while (key > last);
+    while (key > last) key = *--top;
     ray.top = top;
     ray.next = key;
     WaveQueue<kWidth>& queue = next_[kVisitTable.of[key_triangles(key)]];
@@ -234,7 +232,8 @@ class Wave {
     const Node& node = nodes_[key_index(ray.next)];
     const Met met = meet(ray, node);
     if constexpr (kQuery == Query::kAny) {
-      pop(ray, push(ray.top, met, met.bits, node));
+      StackKey* const top = push(ray.top, met, met.bits, node) - 1;
+      go_on(ray, top, *top);
       return;
     }
     const ChildWords du;
@@ -246,9 +245,11 @@ class Wave {
       least_bits |= mask_bits(du, hn::Eq(met.keys[i], least)) << (i * kLanes);
     }
     const auto nearest = static_cast<uint32_t>(std::countr_zero(least_bits));
+    // Not by way of the stack, whose top is known without this visit where nothing is met.
+    const StackKey nearest_key = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
+    const StackKey on_top = ray.top[-1];
     StackKey* const top = push(ray.top, met, met.bits & ~(1U << nearest), node);
-    *top = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
-    pop(ray, top + (met.bits != 0 ? 1 : 0));
+    go_on(ray, top - (met.bits == 0 ? 1 : 0), met.bits != 0 ? nearest_key : on_top);
   }
 
   // Those of the children met that a mask keeps. Returns the stack's new top.
@@ -291,7 +292,10 @@ class Wave {
       }
     }
     take(count);
-    for (size_t i = 0; i < leaves.count; ++i) pop(*leaves.ray[i], leaves.ray[i]->top);
+    for (size_t i = 0; i < leaves.count; ++i) {
+      Ray& ray = *leaves.ray[i];
+      go_on(ray, ray.top - 1, ray.top[-1]);
+    }
   }
 
   HWY_INLINE uint32_t meet_leaf(Ray& ray, uint32_t count) {
