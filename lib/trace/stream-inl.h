@@ -100,13 +100,36 @@ class StreamTracer {
     }
   }
 
+  // All rays of a list. Where any hit will do, one after the other: a ray is done with its first.
+  HWY_INLINE void test_list(StackKey key, const RayEntry* list, uint32_t count) {
+    if constexpr (kQuery == Query::kAny) {
+      for (uint32_t i = 0; i < count; ++i) test_triangles(key, entry_ray(list[i]));
+      return;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t ray = entry_ray(list[i]);
+      batch_.leaf_hits.add(ray, batch_.block_ray(ray), batch_.best(ray).limit,
+                           scene_.blocks + key_index(key), key_triangles(key));
+      if (!batch_.leaf_hits.room()) take_hits();
+    }
+    take_hits();
+  }
+
+  HWY_INLINE void take_hits() {
+    batch_.leaf_hits.take([&](uint32_t ray, const auto&... hits) HWY_ATTR {
+      if (batch_.block_ray(ray).template offer<kQuery>(hits..., batch_.best(ray))) {
+        batch_.template shorten<kQuery>(ray);
+      }
+    });
+  }
+
   HWY_INLINE void visit_list(Stream& stream, StackKey key, uint32_t begin, uint32_t count,
                              bool stale) {
     RayEntry* list = stream.arena + begin;
     const uint32_t open = stale ? keep_open(list, count, batch_.ray) : count;
     if (open == 0) return;
     if (key_is_leaf(key)) {
-      for (uint32_t i = 0; i < open; ++i) test_triangles(key, entry_ray(list[i]));
+      test_list(key, list, open);
       stream.stale = stream.top;
       return;
     }

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <new>
 
+#include "trace/leaf_hits-inl.h"
 #include "trace/ray_entry.h"
 #include "trace/ray_table-inl.h"
 #include "trace/scaled_ray.h"
@@ -63,6 +64,7 @@ struct StreamBatch {
   // By octant before the streams begin, then by child, while a node is visited.
   RayEntry list[std::max(kOctants, kMostChildren)][kBatchRays + kSlack];
   RayEntry arena[kArena * kBatchRays + kOctants * kSlack];
+  LeafHits<uint32_t> leaf_hits;
   // Made ray by ray, since neither has a default.
   alignas(BlockRay) uint8_t block_rays[kBatchRays][sizeof(BlockRay)];
   alignas(ClosestHit) uint8_t hits[kBatchRays][sizeof(ClosestHit)];

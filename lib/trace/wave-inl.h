@@ -283,53 +283,29 @@ class Wave {
   // Tests all leaves' triangles, then takes the hits, then goes on.
   HWY_INLINE void visit_leaves() {
     const WaveQueue<kWidth>& leaves = now_[kVisitLeaf];
-    uint32_t count = 0;
     for (size_t i = 0; i < leaves.count; ++i) {
-      count = meet_leaf(*leaves.ray[i], count);
-      if (count >= WaveMemory<kWidth>::kHits) [[unlikely]] {
-        take(count);
-        count = 0;
-      }
+      Ray& ray = *leaves.ray[i];
+      memory_.hits.add(&ray, ray.triangles(), ray.best().limit, scene_.blocks + key_index(ray.next),
+                       key_triangles(ray.next));
+      if (!memory_.hits.room()) [[unlikely]]
+        take_hits();
     }
-    take(count);
+    take_hits();
     for (size_t i = 0; i < leaves.count; ++i) {
       Ray& ray = *leaves.ray[i];
       go_on(ray, ray.top - 1, ray.top[-1]);
     }
   }
 
-  HWY_INLINE uint32_t meet_leaf(Ray& ray, uint32_t count) {
-    const BlockRay& triangles = ray.triangles();
-    const float limit = ray.best().limit;
-    const TriangleBlock* block = scene_.blocks + key_index(ray.next);
-    const TriangleBlock* const end = block + blocks_of(key_triangles(ray.next));
-    do {
-      for (uint32_t first = 0; first < 4; first += BlockHits::kLanes) {
-        WaveHits<kWidth>& to = memory_.hits[count];
-        to.block = block;
-        to.first = first;
-        to.ray = &ray;
-        to.lanes = triangles.meet(*block, first, limit, to.hits);
-        count += to.lanes != 0 ? 1 : 0;
-      }
-    } while (++block != end);
-    return count;
-  }
-
-  HWY_INLINE void take(uint32_t count) {
-    for (uint32_t i = 0; i < count; ++i) {
-      const WaveHits<kWidth>& of = memory_.hits[i];
-      Ray& ray = *of.ray;
-      ClosestHit& best = ray.best();
-      if (!ray.triangles().template offer<kQuery>(*of.block, of.first, of.lanes, of.hits, best)) {
-        continue;
-      }
+  HWY_INLINE void take_hits() {
+    memory_.hits.take([](Ray* ray, const auto&... hits) HWY_ATTR {
+      if (!ray->triangles().template offer<kQuery>(hits..., ray->best())) return;
       if (kQuery == Query::kAny) {
-        ray.top = ray.stack + 1;  // nothing else to visit
+        ray->top = ray->stack + 1;  // nothing else to visit
       } else {
-        ray.set_limit(scale_limit(best.limit, ray.slabs.scale));
+        ray->set_limit(scale_limit(ray->best().limit, ray->slabs.scale));
       }
-    }
+    });
   }
 
   static constexpr uint32_t kPlane = sizeof(float) * kWidth;  // from a lower plane to its upper one

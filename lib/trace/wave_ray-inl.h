@@ -13,6 +13,7 @@
 #include <new>
 
 #include "format/layout.h"
+#include "trace/leaf_hits-inl.h"
 #include "trace/ray_table-inl.h"
 #include "trace/slab_ray.h"
 #include "trace/stack_key.h"
@@ -84,25 +85,11 @@ struct alignas(256) WaveQueue {
 };
 static_assert(sizeof(WaveQueue<8>) <= 256);
 
-// Triangles of a block that a ray may hit.
-template <int W>
-struct WaveHits {
-  BlockHits hits;
-  const TriangleBlock* block;
-  uint32_t first;
-  uint32_t lanes;
-  WaveRay<W>* ray;
-};
-
 template <int W>
 struct WaveMemory {
-  static constexpr uint32_t kHits = 64;
-  // Of one leaf, at most.
-  static constexpr uint32_t kLeafHits = 16 * 4 / BlockHits::kLanes;
-
   WaveRay<W> ray[kWaveRays];
   WaveQueue<W> queue[2][kVisits];  // of this turn and of the next, changing places
-  WaveHits<W> hits[kHits + kLeafHits];
+  LeafHits<WaveRay<W>*> hits;
 };
 
 }  // namespace
