@@ -40,7 +40,7 @@ class ArrayTracer {
         kernels_(array_kernels(kernels, static_cast<const Result*>(nullptr))),
         coherent_(coherent),
         pool_(pool),
-        fastest_(coherent ? kPacketWay : kernels_.likely) {}
+        fastest_(coherent ? kAlike : kAll, coherent ? kPacketWay : kernels_.likely) {}
 
   // Traces a task's rays, at most kBatchRays. Returns how many were not valid.
   uint64_t trace(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results) {
@@ -60,22 +60,27 @@ class ArrayTracer {
  private:
   using Fastest = FastestWay<kArrayWays>;
 
+  static constexpr uint32_t kAll = (1U << kArrayWays) - 1;
+  static constexpr uint32_t kAlike = kAll & ~(1U << kWaveWay);  // rays that are alike share nodes
   // Fewer rays are not worth the memory that tracing them together takes.
   static constexpr uint64_t kFewestTogether = 256;
   // Rays of a task that tell what a way takes. Batches are the faster the larger they are.
-  static constexpr uint64_t kCompared[kArrayWays] = {kBatchRays / 2, 256, 256};
+  static uint64_t compared(size_t way, bool behind) {
+    if (way == kBatchWay) return behind ? 256 : kBatchRays / 2;
+    return behind ? 128 : 256;
+  }
 
   uint64_t together(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results,
                     void* scratch) {
     const typename Fastest::Turn turn = fastest_.turn(task);
-    if (turn.compared == 0 || count < kBatchRays) {
+    if (!turn.compares || count < kBatchRays) {
       return kernels_.by_way[turn.best](tracer_, rays, count, results, scratch);
     }
     uint64_t part[kArrayWays] = {};
     part[turn.best] = count;
     for (size_t way = 0; way < kArrayWays; ++way) {
-      if (way == turn.best || (turn.compared >> way & 1) == 0) continue;
-      part[way] = kCompared[way];
+      if (way == turn.best || !fastest_.has(way)) continue;
+      part[way] = compared(way, (turn.behind >> way & 1) != 0);
       part[turn.best] -= part[way];
     }
     float time[kArrayWays] = {};
@@ -91,7 +96,7 @@ class ArrayTracer {
       rays += part[way];
       results += part[way];
     }
-    fastest_.took(turn, time);
+    fastest_.took(time);
     return invalid;
   }
 

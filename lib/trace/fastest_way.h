@@ -3,10 +3,9 @@
 //
 // What a ray costs differs from task to task by more than from way to way. So the ways are compared
 // within a task, over rays that are neighbours: most of them go the way that is best so far, some
-// each of the others.
+// each of the others, fewer by ways that are far behind.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cstddef>
@@ -22,42 +21,47 @@ class FastestWay {
   // One task in so many compares the ways, and more of the first ones. Odd: a picture's row of
   // tiles mostly is an even number of tasks, and its left side not like its right one.
   static constexpr uint64_t kTasksAComparison = 17;
-  // A way that takes so many times as long as the best is tried in fewer.
-  static constexpr float kHopeless = 1.5F;
-  static constexpr uint64_t kTasksAnotherChance = 4 * kTasksAComparison;
+  // Times as long as the best takes, from which on a way is far behind.
+  static constexpr float kFarBehind = 1.5F;
 
   // What a task does.
   struct Turn {
-    size_t best;        // the way for its rays, or for most of them
-    uint32_t compared;  // a bit for each way that has some, where ways are compared, or 0
+    size_t best;      // the way for its rays, or for most of them
+    bool compares;    // whether the other ways get some
+    uint32_t behind;  // a bit for each that is far behind
   };
 
-  // `first` is the best until some task has told otherwise.
-  explicit FastestWay(size_t first) : best_(first) {}
+  // `ways` has a bit for each that there is; `first` is the best until some task has told
+  // otherwise.
+  FastestWay(uint32_t ways, size_t first) : ways_(ways), best_(first) {}
+
+  bool has(size_t way) const { return (ways_ >> way & 1) != 0; }
 
   Turn turn(uint64_t task) {
-    Turn turn{best_.load(std::memory_order_relaxed), 0};
+    Turn turn{best_.load(std::memory_order_relaxed), false, 0};
     // Not the first one: its memory and the caches are cold.
-    if (task == 0 || (task % kTasksAComparison != 0 && !std::has_single_bit(task))) return turn;
+    turn.compares = task != 0 && (task % kTasksAComparison == 0 || std::has_single_bit(task));
+    if (!turn.compares) return turn;
     const std::lock_guard lock(mutex_);
     for (size_t way = 0; way < kWays; ++way) {
-      const bool hopeless = time_[way] > kHopeless * time_[turn.best];
-      if (!hopeless || task % kTasksAnotherChance == 0) turn.compared |= 1U << way;
+      if (time_[way] > kFarBehind * time_[turn.best]) turn.behind |= 1U << way;
     }
     return turn;
   }
 
-  // What a ray took by each way that had some.
-  void took(const Turn& turn, const float (&time)[kWays]) {
+  // What a ray took by each way in a task that compared them.
+  void took(const float (&time)[kWays]) {
     const std::lock_guard lock(mutex_);
+    size_t best = best_.load(std::memory_order_relaxed);
+    for (size_t way = 0; way < kWays; ++way) time_[way] = time_[way] / 2 + time[way];
     for (size_t way = 0; way < kWays; ++way) {
-      if ((turn.compared >> way & 1) != 0) time_[way] = time_[way] / 2 + time[way];
+      if (has(way) && time_[way] < time_[best]) best = way;
     }
-    best_.store(static_cast<size_t>(std::min_element(time_, time_ + kWays) - time_),
-                std::memory_order_relaxed);
+    best_.store(best, std::memory_order_relaxed);
   }
 
  private:
+  uint32_t ways_;
   std::atomic<size_t> best_;
   std::mutex mutex_;
   float time_[kWays] = {};  // of all comparisons, each halved with every later one
