@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A ray in a list, in 32 bits that order by distance:
-//   bit 31      set where the ray misses what the list is of
-//   bits 16-30  how far away it meets it: the float's upper half (it is not negative), so rounded
-//               down, and culling by it stays conservative
+//   bits 16-31  how far away it meets what the list is of: the float's upper half, so rounded down
+//               (it is not negative), and culling by it stays conservative
 //   bits 0-15   the ray's index in its batch
 #pragma once
 
@@ -14,7 +13,6 @@ namespace sobb {
 using RayEntry = uint32_t;
 
 inline constexpr RayEntry kEntryDistance = 0xFFFF0000;
-inline constexpr RayEntry kMissed = 0x80000000;
 
 constexpr uint32_t entry_ray(RayEntry entry) { return entry & ~kEntryDistance; }
 constexpr float entry_distance(RayEntry entry) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "capi/handles.h"
 #include "capi/random_bases.h"
 #include "hierarchy.h"
+#include "support/hostile_rays.h"
 #include "support/soups.h"
 #include "support/thread_pool.h"
 
@@ -250,6 +252,26 @@ TEST_P(Arrays, AgreeInSmallAndHostileScenes) {
     expect_hits(hierarchy, rays, rays.size(), oracle(soup, rays),
                 soup.name + " seed " + std::to_string(seed));
     if (HasFatalFailure()) return;
+  }
+}
+
+// What strains the bounds that batches, waves and packets cull by.
+TEST_P(Arrays, AgreeOnHostileRays) {
+  uint64_t seed = 59;
+  for (const Soup& soup :
+       {random_soup(seed, 400), sliver_soup(seed, 300), degenerate_soup(seed, 300),
+        placed(turned_boxes(seed, 20), 1, 1e6), placed(closed_box(5), 0x1p55, 0x1p58)}) {
+    const HierarchyHandle hierarchy = build(soup);
+    std::vector<std::array<float, 3>> normals;
+    for (const Direction& n : hierarchy->view.directions) normals.push_back({n.x, n.y, n.z});
+    for (const RayFamily family : kRayFamilies) {
+      ++seed;
+      const std::vector<sobb_ray> rays = hostile_rays(soup, family, normals, seed, 700);
+      expect_hits(hierarchy, rays, rays.size(), oracle(soup, rays),
+                  soup.name + ", family " + std::to_string(static_cast<int>(family)) + ", seed " +
+                      std::to_string(seed));
+      if (HasFatalFailure()) return;
+    }
   }
 }
 
