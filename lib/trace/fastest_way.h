@@ -18,8 +18,8 @@ namespace sobb {
 template <size_t kWays>
 class FastestWay {
  public:
-  // One task in so many compares the ways, and more of the first ones. Odd: a picture's row of
-  // tiles mostly is an even number of tasks, and its left side not like its right one.
+  // One task in so many compares the ways, and of the first ones the powers of four. Odd: a
+  // picture's row of tiles mostly is an even number of tasks, and its left side not like its right.
   static constexpr uint64_t kTasksAComparison = 17;
   // Times as long as the best takes, from which on a way is far behind.
   static constexpr float kFarBehind = 1.5F;
@@ -40,7 +40,7 @@ class FastestWay {
   Turn turn(uint64_t task) {
     Turn turn{best_.load(std::memory_order_relaxed), false, 0};
     // Not the first one: its memory and the caches are cold.
-    turn.compares = task != 0 && (task % kTasksAComparison == 0 || std::has_single_bit(task));
+    turn.compares = task != 0 && (task % kTasksAComparison == 0 || is_power_of_4(task));
     if (!turn.compares) return turn;
     const std::lock_guard lock(mutex_);
     for (size_t way = 0; way < kWays; ++way) {
@@ -61,6 +61,10 @@ class FastestWay {
   }
 
  private:
+  static constexpr bool is_power_of_4(uint64_t n) {
+    return std::has_single_bit(n) && std::countr_zero(n) % 2 == 0;
+  }
+
   uint32_t ways_;
   std::atomic<size_t> best_;
   std::mutex mutex_;
