@@ -103,22 +103,19 @@ HWY_INLINE StackKey push_but_nearest(const TraceScene& scene, const Node& node,
   return nearest;
 }
 
-// The same in the node's order, which a query for any hit is as good with.
+// The same for a query for any hit: in the node's order, in which the last child is the likeliest
+// to have one.
 template <class Node>
-HWY_INLINE StackKey push_but_first(const TraceScene& scene, const Node& node, uint32_t mask,
-                                   StackKey*& top) {
-  const auto next_key = [&]() HWY_ATTR {
+HWY_INLINE StackKey push_but_last(const TraceScene& scene, const Node& node, uint32_t mask,
+                                  StackKey*& top) {
+  StackKey key;
+  for (;; *top++ = key) {
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
-    return make_key(0, node.meta[child], node.reference[child]);
-  };
-  const StackKey first = next_key();
-  do {
-    const StackKey key = next_key();
+    key = make_key(0, node.meta[child], node.reference[child]);
+    if (mask == 0) return key;
     prefetch<Node>(scene, key);
-    *top++ = key;
-  } while (mask != 0);
-  return first;
+  }
 }
 
 // What is left to visit: at first the root.
@@ -191,7 +188,7 @@ HWY_NOINLINE StackKey next_stop(const TraceScene& scene, const Ray& in_memory, f
         triangles = node.meta[child] & kTriangleMask;
         continue;
       }
-      key = kQuery == Query::kAny ? push_but_first(scene, node, hits.mask, top)
+      key = kQuery == Query::kAny ? push_but_last(scene, node, hits.mask, top)
                                   : push_but_nearest<Volumes>(scene, node, hits, top);
       index = key_index(key);
       triangles = key_triangles(key);

@@ -169,7 +169,7 @@ class StreamTracer {
     for (uint32_t i = 0; i < count; ++i) visit_alone(stream, node, entry_ray(rays[i]), test);
   }
 
-  // The children that one ray meets, the nearest on top.
+  // The children that one ray meets, the nearest on top; where any hit will do, the node's last.
   template <class NodeTest>
   HWY_INLINE void visit_alone(Stream& stream, const Node<kWidth>& node, uint32_t ray,
                               const NodeTest& test) {
@@ -191,13 +191,15 @@ class StreamTracer {
       const StackKey key = make_key(0, node.meta[child], node.reference[child]);
       prefetch<Node<kWidth>>(scene_, key);
       StreamItem* at = top++;
-      for (; at != base && at[-1].begin < entry[child]; --at) *at = at[-1];
+      for (; kQuery == Query::kClosest && at != base && at[-1].begin < entry[child]; --at)
+        *at = at[-1];
       *at = {key, entry[child], 0};
     }
     stream.top += static_cast<uint32_t>(top - base);
   }
 
-  // The children that rays of a list meet, on top the one whose nearest ray is nearest.
+  // The children that rays of a list meet, on top the one whose nearest ray is nearest; where any
+  // hit will do, the node's last.
   template <class NodeTest>
   HWY_INLINE void visit_together(Stream& stream, const Node<kWidth>& node, const RayEntry* rays,
                                  uint32_t count, uint32_t begin, const NodeTest& test) {
@@ -212,7 +214,8 @@ class StreamTracer {
       if (lists.count[child] == 0) continue;
       const uint64_t key = uint64_t{lists.nearest[child]} << 32 | child;
       uint32_t at = met++;
-      for (; at != 0 && order[at - 1] < key; --at) order[at] = order[at - 1];
+      for (; kQuery == Query::kClosest && at != 0 && order[at - 1] < key; --at)
+        order[at] = order[at - 1];
       order[at] = key;
     }
     for (uint32_t i = 0; i < met; ++i) {

@@ -219,7 +219,7 @@ class Wave {
       met.bits |= (mask_bits(d, missed) ^ ((1U << kLanes) - 1)) << first;
       const auto meta = hn::PromoteTo(du, hn::Load(d16, node.meta + first));
       met.keys[i] = hn::And(meta, hn::Set(du, kTriangleMask));
-      if constexpr (kQuery == Query::kAny) continue;  // nothing is culled, and any order is as good
+      if constexpr (kQuery == Query::kAny) continue;  // nothing is culled; the node's order
       const auto distance = hn::AndNot(hn::Set(du, kKeyMetaMask), hn::BitCast(du, near));
       met.keys[i] = hn::Or(met.keys[i], distance);
       // So that those missed come last.
