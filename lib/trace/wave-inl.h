@@ -249,7 +249,8 @@ class Wave {
     const StackKey nearest_key = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
     const StackKey on_top = ray.top[-1];
     StackKey* const top = push(ray.top, met, met.bits & ~(1U << nearest), node);
-    go_on(ray, top - (met.bits == 0 ? 1 : 0), met.bits != 0 ? nearest_key : on_top);
+    const uint64_t none = (uint64_t{met.bits} - 1) >> 63;  // no branch, which compilers would make
+    go_on(ray, top - none, nearest_key ^ ((nearest_key ^ on_top) & (0 - none)));
   }
 
   // Those of the children met that a mask keeps. Returns the stack's new top.
