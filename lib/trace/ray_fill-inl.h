@@ -111,9 +111,9 @@ class RayFiller {
     const V scale = hn::Set(d, 1.0F);
     store_rows(c[0].reciprocal, c[1].reciprocal, c[2].reciprocal, tmin, to, &SlabRay::reciprocal);
     store_rows(c[0].near, c[1].near, c[2].near, limit, to, &SlabRay::near);
-    store_rows(c[0].far, c[1].far, c[2].far, error, to, &SlabRay::far);
+    store_rows(c[0].far, c[1].far, c[2].far, hn::Zero(d), to, &SlabRay::far);
     store_rows(origin[0], origin[1], origin[2], scale, to, &SlabRay::origin);
-    store_rows(rays.direction[0], rays.direction[1], rays.direction[2], hn::Zero(d), to,
+    store_rows(rays.direction[0], rays.direction[1], rays.direction[2], error, to,
                &SlabRay::direction);
   }
 

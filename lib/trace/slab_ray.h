@@ -11,11 +11,11 @@ struct alignas(64) SlabRay {
   float near[3];
   float limit;  // of the interval, in scaled units; negative once an any-hit ray is done
   float far[3];
-  float error;
+  float unused;
   float origin[3];
   float scale;
   float direction[3];
-  float unused;
+  float error;
 };
 
 }  // namespace sobb

@@ -33,6 +33,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 // So many rays of a list go on alone, whatever the node: they need no lists of children.
 inline constexpr uint32_t kAlone = 3;
 
+// From so many rays of a list on, those that a leaf's triangles surely miss are told first.
+inline constexpr uint32_t kFewestFiltered = 4;
+
 // The rays of a list that have no hit nearer than it, packed. Returns how many.
 HWY_INLINE uint32_t keep_open(RayEntry* list, uint32_t count, const SlabRay* ray) {
   const hn::CappedTag<RayEntry, 8> du;
@@ -100,19 +103,68 @@ class StreamTracer {
     }
   }
 
-  // All rays of a list. Where any hit will do, one after the other: a ray is done with its first.
+  // All rays of a list.
   HWY_INLINE void test_list(StackKey key, const RayEntry* list, uint32_t count) {
-    if constexpr (kQuery == Query::kAny) {
+    const TriangleBlock* const block = scene_.blocks + key_index(key);
+    const uint32_t triangles = key_triangles(key);
+    if (count >= kFewestFiltered && filter_pays()) {
+      const auto blocks = static_cast<uint32_t>(blocks_of(triangles));
+      for (uint32_t i = 0; i < blocks; ++i) batch_.filter[i].make(scene_, block[i]);
+      for (uint32_t first = 0; first < count; first += RayGroup::kLanes) {
+        const ListPart part(list + first, count - first);
+        test_group(block, triangles, part.entries, part.filled);
+      }
+    } else if (kQuery == Query::kAny) {
       for (uint32_t i = 0; i < count; ++i) test_triangles(key, entry_ray(list[i]));
-      return;
+    } else {
+      for (uint32_t i = 0; i < count; ++i) list_hits(entry_ray(list[i]), block, triangles);
     }
-    for (uint32_t i = 0; i < count; ++i) {
-      const uint32_t ray = entry_ray(list[i]);
-      batch_.leaf_hits.add(ray, batch_.block_ray(ray), batch_.best(ray).limit,
-                           scene_.blocks + key_index(key), key_triangles(key));
-      if (!batch_.leaf_hits.room()) take_hits();
+    if (kQuery == Query::kClosest) take_hits();
+  }
+
+  // Not where rays hit most of the leaves that they meet, unless sure hits need no other test.
+  bool filter_pays() const { return kQuery == Query::kAny || 2 * passed_ <= tested_; }
+
+  HWY_INLINE void list_hits(uint32_t ray, const TriangleBlock* block, uint32_t triangles) {
+    batch_.leaf_hits.add(ray, batch_.block_ray(ray), batch_.best(ray).limit, block, triangles);
+    if (!batch_.leaf_hits.room()) [[unlikely]]
+      take_hits();
+  }
+
+  // A group of rays, of which the mask has some, before a leaf.
+  HWY_INLINE void test_group(const TriangleBlock* block, uint32_t triangles,
+                             const RayEntry* entries, uint32_t open) {
+    const FilterRays rays(RayGroup(batch_.ray, entries));
+    const FilterBlock* prepared = batch_.filter;
+    for (uint32_t first = 0; first < triangles && open != 0; first += 4, ++block, ++prepared) {
+      uint32_t may_hit = 0;
+      for (uint32_t i = 0; i < std::min(triangles - first, 4U); ++i) {
+        const FilterVerdict of = filter<kQuery>(rays, *prepared, i);
+        may_hit |= of.may_hit;
+        if constexpr (kQuery == Query::kAny) {
+          for (uint32_t hit = of.hits & open; hit != 0; hit &= hit - 1) {
+            const uint32_t ray = entry_ray(entries[std::countr_zero(hit)]);
+            batch_.best(ray).primitive = block->primitive[i];
+            batch_.template shorten<kQuery>(ray);
+          }
+          open &= ~of.hits;
+        }
+      }
+      if constexpr (kQuery == Query::kClosest) {
+        tested_ += static_cast<uint32_t>(std::popcount(open));
+        passed_ += static_cast<uint32_t>(std::popcount(may_hit & open));
+      }
+      for (uint32_t left = may_hit & open; left != 0; left &= left - 1) {
+        const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+        const uint32_t ray = entry_ray(entries[lane]);
+        if constexpr (kQuery == Query::kClosest) {
+          list_hits(ray, block, 4);
+        } else if (batch_.block_ray(ray).template test<kQuery>(*block, batch_.best(ray))) {
+          batch_.template shorten<kQuery>(ray);
+          open &= ~(1U << lane);
+        }
+      }
     }
-    take_hits();
   }
 
   HWY_INLINE void take_hits() {
@@ -237,6 +289,8 @@ class StreamTracer {
   const TraceScene& scene_;
   const Node<kWidth>* nodes_;
   StreamBatch& batch_;
+  uint32_t tested_ = 0;  // rays before blocks, by the filter,
+  uint32_t passed_ = 0;  // and those that it could not tell from hits
 };
 
 // Gives each octant its rays: the root's list.

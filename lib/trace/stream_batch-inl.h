@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <new>
 
+#include "trace/leaf_filter-inl.h"
 #include "trace/leaf_hits-inl.h"
 #include "trace/ray_entry.h"
 #include "trace/ray_table-inl.h"
@@ -65,6 +66,7 @@ struct StreamBatch {
   RayEntry list[std::max(kOctants, kMostChildren)][kBatchRays + kSlack];
   RayEntry arena[kArena * kBatchRays + kOctants * kSlack];
   LeafHits<uint32_t> leaf_hits;
+  FilterBlock filter[blocks_of(kTriangleMask)];  // of the leaf that a list of rays is before
   // Made ray by ray, since neither has a default.
   alignas(BlockRay) uint8_t block_rays[kBatchRays][sizeof(BlockRay)];
   alignas(ClosestHit) uint8_t hits[kBatchRays][sizeof(ClosestHit)];

@@ -36,6 +36,24 @@ HWY_INLINE uint32_t store_packed(VU entries, uint32_t bits, RayEntry* to) {
   return static_cast<uint32_t>(std::popcount(bits));
 }
 
+// As many rays of a list as a vector has lanes.
+class ListPart {
+  static constexpr uint32_t kLanes = RayGroup::kLanes;
+  RayEntry padded_[kLanes];
+
+ public:
+  const RayEntry* entries;
+  uint32_t filled;  // a bit for each ray; in the other lanes the last one stands in
+
+  HWY_INLINE ListPart(const RayEntry* list, uint32_t left) : entries(list) {
+    const uint32_t some = std::min(kLanes, left);
+    filled = (1U << some) - 1;
+    if (some == kLanes) return;
+    for (uint32_t i = 0; i < kLanes; ++i) padded_[i] = list[std::min(i, some - 1)];
+    entries = padded_;
+  }
+};
+
 // The rays that meet each child, in the order of the list that they come from.
 template <int W>
 struct ChildLists {
@@ -53,22 +71,15 @@ HWY_INLINE void fill_lists(const SlabRay* rays, const RayEntry* entries, uint32_
   constexpr uint32_t kLanes = RayGroup::kLanes;
   alignas(64) RayEntry least[W][kLanes];
   for (uint32_t first = 0; first < count; first += kLanes) {
-    const uint32_t some = std::min(kLanes, count - first);
-    RayEntry padded[kLanes];
-    const RayEntry* from = entries + first;
-    if (some < kLanes) {
-      for (uint32_t i = 0; i < kLanes; ++i) padded[i] = from[std::min(i, some - 1)];
-      from = padded;
-    }
-    const uint32_t filled = (1U << some) - 1;
-    const RayGroup group(rays, from);
-    const auto indices = hn::AndNot(hn::Set(du, kEntryDistance), hn::LoadU(du, from));
+    const ListPart part(entries + first, count - first);
+    const RayGroup group(rays, part.entries);
+    const auto indices = hn::AndNot(hn::Set(du, kEntryDistance), hn::LoadU(du, part.entries));
     const auto of_group = test.of(group);
     for (uint32_t child = 0; child < children; ++child) {
       auto near = group.tmin;
       auto far = group.limit;
       test.clip(of_group, child, near, far);
-      const uint32_t met = mask_bits(d, hn::Le(near, far)) & filled;
+      const uint32_t met = mask_bits(d, hn::Le(near, far)) & part.filled;
       auto met_entries = indices;
       if constexpr (kQuery == Query::kClosest) {
         const auto distances = hn::And(hn::BitCast(du, near), hn::Set(du, kEntryDistance));

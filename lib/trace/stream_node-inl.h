@@ -77,8 +77,8 @@ struct FrameNode {
   };
   HWY_INLINE Group of(const RayGroup& group) const {
     V far[3];
-    V error;
-    group.load_rows(&SlabRay::far, far, error);
+    V unused;
+    group.load_rows(&SlabRay::far, far, unused);
     Group of;
     for (int j = 0; j < 3; ++j) of.along[j] = {group.reciprocal[j], group.near[j], far[j]};
     return of;
@@ -102,11 +102,9 @@ struct GroupRays {
   V error;
 
   HWY_INLINE explicit GroupRays(const RayGroup& group) {
-    V unused[3];
     V scale;
-    group.load_rows(&SlabRay::far, unused, error);
     group.load_rows(&SlabRay::origin, origin, scale);
-    group.load_rows(&SlabRay::direction, direction, scale);
+    group.load_rows(&SlabRay::direction, direction, error);
   }
 
   HWY_INLINE SlabCoefficients<V> along(float x, float y, float z) const {
