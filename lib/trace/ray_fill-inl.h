@@ -4,7 +4,8 @@
 //
 // Where each is to go, `Places` says, by functions of the ray's number:
 //   slabs(i)       its SlabRay
-//   block_ray(i), hit(i)   memory for its BlockRay and ClosestHit
+//   hit(i)         memory for its ClosestHit
+//   block_ray(i)   memory for its BlockRay, if kBlockRays says that it is to be made
 #if defined(SOBB_TRACE_RAY_FILL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_TRACE_RAY_FILL_INL_H
 #undef SOBB_TRACE_RAY_FILL_INL_H
@@ -67,7 +68,7 @@ class RayFiller {
         hn::And(hn::Ge(largest, hn::Set(d, 1 / kLongest)), hn::Le(largest, hn::Set(d, kLongest))),
         hn::Le(distance, hn::Set(d, ScaledRay::kFurthest)));
     fill_slabs(some, origin, distance, i);
-    fill_triangle_rays(some, LargestAxis(size), i);
+    if constexpr (Places::kBlockRays) fill_triangle_rays(some, LargestAxis(size), i);
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       new (places_.hit(i + lane)) ClosestHit(rays[lane]);
     }

@@ -70,8 +70,12 @@ class StreamTracer {
   static constexpr bool kFrame = Volumes::kFrameOnly;
 
  public:
-  StreamTracer(const TraceScene& scene, StreamBatch& batch)
-      : scene_(scene), nodes_(static_cast<const Node<kWidth>*>(scene.nodes)), batch_(batch) {}
+  // `rays` are the batch's as the caller has them.
+  StreamTracer(const TraceScene& scene, const sobb_ray* rays, StreamBatch& batch)
+      : scene_(scene),
+        nodes_(static_cast<const Node<kWidth>*>(scene.nodes)),
+        rays_(rays),
+        batch_(batch) {}
 
   // Visits what is next. Returns whether there is more.
   HWY_INLINE bool step(Stream& stream) {
@@ -96,8 +100,17 @@ class StreamTracer {
   }
 
  private:
+  // Few rays that look for any hit need the deciding test: theirs are made where they are needed.
+  HWY_INLINE const BlockRay& block_ray(uint32_t i) {
+    if (kQuery == Query::kAny && !batch_.has_block_ray[i]) {
+      new (batch_.block_rays[i]) BlockRay(rays_[i]);
+      batch_.has_block_ray[i] = true;
+    }
+    return batch_.block_ray(i);
+  }
+
   HWY_INLINE void test_triangles(StackKey key, uint32_t ray) {
-    if (test_leaf<kQuery>(batch_.block_ray(ray), scene_.blocks + key_index(key), key_triangles(key),
+    if (test_leaf<kQuery>(block_ray(ray), scene_.blocks + key_index(key), key_triangles(key),
                           batch_.best(ray))) {
       batch_.shorten<kQuery>(ray);
     }
@@ -126,7 +139,7 @@ class StreamTracer {
   bool filter_pays() const { return kQuery == Query::kAny || 2 * passed_ <= tested_; }
 
   HWY_INLINE void list_hits(uint32_t ray, const TriangleBlock* block, uint32_t triangles) {
-    batch_.leaf_hits.add(ray, batch_.block_ray(ray), batch_.best(ray).limit, block, triangles);
+    batch_.leaf_hits.add(ray, block_ray(ray), batch_.best(ray).limit, block, triangles);
     if (!batch_.leaf_hits.room()) [[unlikely]]
       take_hits();
   }
@@ -159,7 +172,7 @@ class StreamTracer {
         const uint32_t ray = entry_ray(entries[lane]);
         if constexpr (kQuery == Query::kClosest) {
           list_hits(ray, block, 4);
-        } else if (batch_.block_ray(ray).template test<kQuery>(*block, batch_.best(ray))) {
+        } else if (block_ray(ray).template test<kQuery>(*block, batch_.best(ray))) {
           batch_.template shorten<kQuery>(ray);
           open &= ~(1U << lane);
         }
@@ -169,7 +182,7 @@ class StreamTracer {
 
   HWY_INLINE void take_hits() {
     batch_.leaf_hits.take([&](uint32_t ray, const auto&... hits) HWY_ATTR {
-      if (batch_.block_ray(ray).template offer<kQuery>(hits..., batch_.best(ray))) {
+      if (block_ray(ray).template offer<kQuery>(hits..., batch_.best(ray))) {
         batch_.template shorten<kQuery>(ray);
       }
     });
@@ -288,6 +301,7 @@ class StreamTracer {
 
   const TraceScene& scene_;
   const Node<kWidth>* nodes_;
+  const sobb_ray* rays_;
   StreamBatch& batch_;
   uint32_t tested_ = 0;  // rays before blocks, by the filter,
   uint32_t passed_ = 0;  // and those that it could not tell from hits
@@ -314,14 +328,14 @@ template <class Volumes, Query kQuery, class Result>
 uint64_t trace_stream(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
                       Result* results, StreamBatch& batch) {
   uint32_t octant_count[kOctants] = {};
-  const uint32_t invalid = fill_batch(scene, rays, count, results, batch, octant_count);
+  const uint32_t invalid = fill_batch<kQuery>(scene, rays, count, results, batch, octant_count);
   begin_streams(octant_count, batch);
   uint32_t active[kOctants];
   uint32_t active_count = 0;
   for (uint32_t octant = 0; octant < kOctants; ++octant) {
     if (octant_count[octant] != 0) active[active_count++] = octant;
   }
-  StreamTracer<Volumes, kQuery> tracer(scene, batch);
+  StreamTracer<Volumes, kQuery> tracer(scene, rays, batch);
   while (active_count != 0) {
     for (uint32_t i = 0; i < active_count;) {
       if (tracer.step(batch.stream[active[i]])) {

@@ -68,6 +68,7 @@ struct StreamBatch {
   LeafHits<uint32_t> leaf_hits;
   FilterBlock filter[blocks_of(kTriangleMask)];  // of the leaf that a list of rays is before
   // Made ray by ray, since neither has a default.
+  bool has_block_ray[kBatchRays];  // where any hit will do
   alignas(BlockRay) uint8_t block_rays[kBatchRays][sizeof(BlockRay)];
   alignas(ClosestHit) uint8_t hits[kBatchRays][sizeof(ClosestHit)];
 

@@ -23,7 +23,9 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+template <Query kQuery>
 struct BatchPlaces {
+  static constexpr bool kBlockRays = kQuery == Query::kClosest;
   StreamBatch& batch;
 
   SlabRay& slabs(uint32_t i) const { return batch.ray[i]; }
@@ -41,12 +43,14 @@ inline uint32_t octant_of(const SlabRay& ray) {
 
 // Makes the batch of the valid rays. Returns how many are not; of those of each octant there are,
 // in its list, so many.
-template <class Result>
+template <Query kQuery, class Result>
 HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, uint32_t count,
                                Result* results, StreamBatch& batch,
                                uint32_t (&octant_count)[kOctants]) {
   constexpr uint32_t kLanes = RayVectors::kLanes;
-  RayFiller<BatchPlaces> filler(scene, BatchPlaces{batch});
+  using Places = BatchPlaces<kQuery>;
+  RayFiller<Places> filler(scene, Places{batch});
+  if (!Places::kBlockRays) std::fill_n(batch.has_block_ray, count, false);
   uint32_t invalid = 0;
   for (uint32_t first = 0; first < count; first += kLanes) {
     const uint32_t some = std::min(kLanes, count - first);

@@ -94,6 +94,7 @@ class Wave {
  private:
   // Rays on their way to places of the wave.
   struct Places {
+    static constexpr bool kBlockRays = true;
     Ray* of[RayVectors::kLanes];
 
     SlabRay& slabs(uint32_t i) const { return of[i]->slabs; }
