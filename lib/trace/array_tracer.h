@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "base/scratch_pool.h"
+#include "trace/dealt_rays.h"
 #include "trace/fastest_way.h"
 #include "trace/tracer.h"
 
@@ -34,13 +35,18 @@ inline ArrayKernels<uint8_t> array_kernels(const TraceKernels& kernels, const ui
 template <class Result>
 class ArrayTracer {
  public:
-  // `coherent`: neighbours are said to be alike.
+  // `coherent`: neighbours are said to be alike. The pool's blocks have scratch_bytes().
   ArrayTracer(const Tracer& tracer, const TraceKernels& kernels, bool coherent, ScratchPool& pool)
       : tracer_(tracer),
+        kernel_bytes_(kernel_bytes(kernels)),
         kernels_(array_kernels(kernels, static_cast<const Result*>(nullptr))),
         coherent_(coherent),
         pool_(pool),
         fastest_(coherent ? kAlike : kAll, coherent ? kPacketWay : kernels_.likely) {}
+
+  static size_t scratch_bytes(const TraceKernels& kernels) {
+    return kernel_bytes(kernels) + sizeof(Dealt);
+  }
 
   // Traces a task's rays, at most kBatchRays. Returns how many were not valid.
   uint64_t trace(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results) {
@@ -59,48 +65,59 @@ class ArrayTracer {
 
  private:
   using Fastest = FastestWay<kArrayWays>;
+  using Dealt = DealtRays<Result>;
+
+  static size_t kernel_bytes(const TraceKernels& kernels) {
+    return (kernels.scratch_bytes + 63) / 64 * 64;
+  }
 
   static constexpr uint32_t kAll = (1U << kArrayWays) - 1;
   static constexpr uint32_t kAlike = kAll & ~(1U << kWaveWay);  // rays that are alike share nodes
   // Fewer rays are not worth the memory that tracing them together takes.
   static constexpr uint64_t kFewestTogether = 256;
-  // Rays of a task that tell what a way takes. Batches are the faster the larger they are.
-  static uint64_t compared(size_t way, bool behind) {
-    if (way == kBatchWay) return behind ? 256 : kBatchRays / 2;
-    return behind ? 128 : 256;
+  // Runs of a task that tell what a way takes. Batches are the faster the larger they are.
+  static uint32_t compared(size_t way, bool behind) {
+    if (way == kBatchWay) return behind ? Dealt::kRuns / 8 : Dealt::kRuns / 2;
+    return behind ? Dealt::kRuns / 16 : Dealt::kRuns / 8;
   }
 
   uint64_t together(uint64_t task, const sobb_ray* rays, uint64_t count, Result* results,
                     void* scratch) {
     const typename Fastest::Turn turn = fastest_.turn(task);
-    if (!turn.compares || count < kBatchRays) {
-      return kernels_.by_way[turn.best](tracer_, rays, count, results, scratch);
-    }
-    uint64_t part[kArrayWays] = {};
-    part[turn.best] = count;
+    if (turn.compares && count == kBatchRays) return compare(task, turn, rays, results, scratch);
+    return kernels_.by_way[turn.best](tracer_, rays, count, results, scratch);
+  }
+
+  uint64_t compare(uint64_t task, const typename Fastest::Turn& turn, const sobb_ray* rays,
+                   Result* results, void* scratch) {
+    uint32_t runs[kArrayWays] = {};
+    runs[turn.best] = Dealt::kRuns;
     for (size_t way = 0; way < kArrayWays; ++way) {
       if (way == turn.best || !fastest_.has(way)) continue;
-      part[way] = compared(way, (turn.behind >> way & 1) != 0);
-      part[turn.best] -= part[way];
+      runs[way] = compared(way, (turn.behind >> way & 1) != 0);
+      runs[turn.best] -= runs[way];
     }
+    auto& dealt = *new (static_cast<uint8_t*>(scratch) + kernel_bytes_) Dealt;
+    dealt.deal(rays, runs);
     float time[kArrayWays] = {};
     uint64_t invalid = 0;
     for (size_t i = 0; i < kArrayWays; ++i) {
-      // Each has its turn to be the first: what neighbours cost may rise or fall.
+      // Each has its turn to be the first, which finds the caches cold.
       const size_t way = (task + i) % kArrayWays;
-      if (part[way] == 0) continue;
+      if (runs[way] == 0) continue;
+      const uint64_t share = uint64_t{runs[way]} * Dealt::kRun;
       const auto start = std::chrono::steady_clock::now();
-      invalid += kernels_.by_way[way](tracer_, rays, part[way], results, scratch);
+      invalid += kernels_.by_way[way](tracer_, dealt.rays(way), share, dealt.results(way), scratch);
       const std::chrono::duration<float> took = std::chrono::steady_clock::now() - start;
-      time[way] = took.count() / static_cast<float>(part[way]);
-      rays += part[way];
-      results += part[way];
+      time[way] = took.count() / static_cast<float>(share);
     }
+    dealt.collect(results);
     fastest_.took(time);
     return invalid;
   }
 
   const Tracer& tracer_;
+  const size_t kernel_bytes_;
   const ArrayKernels<Result> kernels_;
   const bool coherent_;
   ScratchPool& pool_;

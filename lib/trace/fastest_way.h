@@ -2,8 +2,8 @@
 // The fastest of several ways to trace an array of rays, told by the clock while it is traced.
 //
 // What a ray costs differs from task to task by more than from way to way. So the ways are compared
-// within a task, over rays that are neighbours: most of them go the way that is best so far, some
-// each of the others, fewer by ways that are far behind.
+// within a task, over rays from all over it (dealt_rays.h): most of them go the way that is best so
+// far, some each of the others, fewer by ways that are far behind.
 #pragma once
 
 #include <atomic>

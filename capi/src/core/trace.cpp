@@ -36,8 +36,9 @@ void trace_array(const sobb_hierarchy* hierarchy, const sobb_ray* rays, uint64_t
     require(results, "results");
   }
   const bool coherent = (known.flags & SOBB_TRACE_COHERENT) != 0;
-  sobb::ScratchPool pool(*hierarchy->memory, kernels.scratch_bytes);
-  sobb::ArrayTracer<Result> tracer(hierarchy->tracer, kernels, coherent, pool);
+  using Tracer = sobb::ArrayTracer<Result>;
+  sobb::ScratchPool pool(*hierarchy->memory, Tracer::scratch_bytes(kernels));
+  Tracer tracer(hierarchy->tracer, kernels, coherent, pool);
   const sobb::Scheduler scheduler(known.threads, known.scheduler);
   std::atomic<uint64_t> invalid{0};
   scheduler.for_ranges(count, sobb::kBatchRays, [&](uint64_t begin, uint64_t end) {
