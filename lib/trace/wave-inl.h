@@ -84,7 +84,7 @@ class Wave {
       for (int i = 0; i < kVisits; ++i) next_[i].count = 0;
       for (size_t i = 0; i < now_[kVisitNothing].count; ++i) finish(*now_[kVisitNothing].ray[i]);
       while (free_count_ >= RayVectors::kLanes && begun_ < count_) begin_rays();
-      for (size_t i = 0; i < now_[kVisitNode].count; ++i) visit_node(*now_[kVisitNode].ray[i]);
+      visit_nodes();
       visit_leaves();
       std::swap(now_, next_);
       if (free_count_ == kRays && begun_ == count_) return invalid_;
@@ -229,9 +229,22 @@ class Wave {
     return met;
   }
 
-  HWY_INLINE void visit_node(Ray& ray) {
-    const Node& node = nodes_[key_index(ray.next)];
-    const Met met = meet(ray, node);
+  // All tests, then all choices: a visit as a whole waits for itself longer than the processor looks
+  // ahead.
+  HWY_INLINE void visit_nodes() {
+    const WaveQueue<kWidth>& queue = now_[kVisitNode];
+    Met met[kRays];
+    for (size_t i = 0; i < queue.count; ++i) {
+      Ray& ray = *queue.ray[i];
+      met[i] = meet(ray, nodes_[key_index(ray.next)]);
+    }
+    for (size_t i = 0; i < queue.count; ++i) {
+      Ray& ray = *queue.ray[i];
+      choose(ray, nodes_[key_index(ray.next)], met[i]);
+    }
+  }
+
+  HWY_INLINE void choose(Ray& ray, const Node& node, const Met& met) {
     if constexpr (kQuery == Query::kAny) {
       StackKey* const top = push(ray.top, met, met.bits, node) - 1;
       go_on(ray, top, *top);
