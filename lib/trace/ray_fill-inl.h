@@ -33,18 +33,26 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// What a filler says of the rays that it made, a bit each.
+struct FilledRays {
+  uint32_t valid;
+  uint32_t falls[3];  // whose cosines with the first three directions are negative
+};
+
 template <class Places>
 class RayFiller {
  public:
   RayFiller(const TraceScene& scene, Places places) : scene_(scene), places_(places) {}
 
   // Makes rays, at most as many as a vector has lanes, the first the i-th; the places of all lanes
-  // are written. Returns which are valid.
-  HWY_INLINE uint32_t fill(const sobb_ray* rays, uint32_t count, uint32_t i) {
+  // are written.
+  HWY_INLINE FilledRays fill(const sobb_ray* rays, uint32_t count, uint32_t i) {
     if (count == kLanes) return fill_lanes(rays, i);
     sobb_ray all[kLanes];
     for (uint32_t lane = 0; lane < kLanes; ++lane) all[lane] = rays[std::min(lane, count - 1)];
-    return fill_lanes(all, i) & ((1U << count) - 1);
+    FilledRays filled = fill_lanes(all, i);
+    filled.valid &= (1U << count) - 1;
+    return filled;
   }
 
  private:
@@ -52,13 +60,14 @@ class RayFiller {
   using M = RayVectors::M;
   static constexpr uint32_t kLanes = RayVectors::kLanes;
 
-  HWY_INLINE uint32_t fill_lanes(const sobb_ray* rays, uint32_t i) {
+  HWY_INLINE FilledRays fill_lanes(const sobb_ray* rays, uint32_t i) {
+    FilledRays filled;
     const RayFloats d;
     const RayVectors some(rays);
     V size[3];
     for (int k = 0; k < 3; ++k) size[k] = hn::Abs(some.direction[k]);
     const V largest = hn::Max(hn::Max(size[0], size[1]), size[2]);
-    const uint32_t valid = mask_bits(d, is_valid(some, size, largest));
+    filled.valid = mask_bits(d, is_valid(some, size, largest));
 
     V origin[3];
     for (int k = 0; k < 3; ++k) origin[k] = hn::Sub(some.origin[k], hn::Set(d, scene_.centre[k]));
@@ -67,16 +76,20 @@ class RayFiller {
     const auto usual = hn::And(
         hn::And(hn::Ge(largest, hn::Set(d, 1 / kLongest)), hn::Le(largest, hn::Set(d, kLongest))),
         hn::Le(distance, hn::Set(d, ScaledRay::kFurthest)));
-    fill_slabs(some, origin, distance, i);
+    fill_slabs(some, origin, distance, i, filled.falls);
     if constexpr (Places::kBlockRays) fill_triangle_rays(some, LargestAxis(size), i);
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       new (places_.hit(i + lane)) ClosestHit(rays[lane]);
     }
-    for (uint32_t left = valid & ~mask_bits(d, usual); left != 0; left &= left - 1) {
+    for (uint32_t left = filled.valid & ~mask_bits(d, usual); left != 0; left &= left - 1) {
       const auto lane = static_cast<uint32_t>(std::countr_zero(left));
       fill_slabs(ScaledRay(scene_, rays[lane]), i + lane);
+      for (int j = 0; j < 3; ++j) {
+        const uint32_t falls = std::bit_cast<uint32_t>(places_.slabs(i + lane).reciprocal[j]) >> 31;
+        filled.falls[j] = (filled.falls[j] & ~(1U << lane)) | falls << lane;
+      }
     }
-    return valid;
+    return filled;
   }
 
   // As is_valid() of one ray.
@@ -93,7 +106,8 @@ class RayFiller {
   }
 
   // As ScaledRay has them where nothing need be scaled.
-  HWY_INLINE void fill_slabs(const RayVectors& rays, const V (&origin)[3], V distance, uint32_t i) {
+  HWY_INLINE void fill_slabs(const RayVectors& rays, const V (&origin)[3], V distance, uint32_t i,
+                             uint32_t (&falls)[3]) {
     const RayFloats d;
     const V reach = hn::Add(distance, hn::Set(d, scene_.radius));
     const V error = hn::MulAdd(hn::Add(distance, reach), hn::Set(d, ScaledRay::kRelativeError),
@@ -105,6 +119,7 @@ class RayFiller {
       c[j] = slab_coefficients(d, hn::Set(d, directions.x[j]), hn::Set(d, directions.y[j]),
                                hn::Set(d, directions.z[j]), origin[0], origin[1], origin[2],
                                rays.direction[0], rays.direction[1], rays.direction[2], error);
+      falls[j] = mask_bits(d, hn::MaskFromVec(c[j].reciprocal));  // the sign bit alone
     }
     SlabRay* to[kLanes];
     for (uint32_t lane = 0; lane < kLanes; ++lane) to[lane] = &places_.slabs(i + lane);

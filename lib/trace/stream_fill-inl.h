@@ -33,14 +33,6 @@ struct BatchPlaces {
   void* hit(uint32_t i) const { return batch.hits[i]; }
 };
 
-// The signs of a ray's cosines with the first three directions, which say which planes are the near
-// ones.
-inline uint32_t octant_of(const SlabRay& ray) {
-  uint32_t bits = 0;
-  for (int k = 0; k < 3; ++k) bits |= std::bit_cast<uint32_t>(ray.reciprocal[k]) >> 31 << k;
-  return bits;
-}
-
 // Makes the batch of the valid rays. Returns how many are not; of those of each octant there are,
 // in its list, so many.
 template <Query kQuery, class Result>
@@ -54,14 +46,30 @@ HWY_INLINE uint32_t fill_batch(const TraceScene& scene, const sobb_ray* rays, ui
   uint32_t invalid = 0;
   for (uint32_t first = 0; first < count; first += kLanes) {
     const uint32_t some = std::min(kLanes, count - first);
-    const uint32_t valid = filler.fill(rays + first, some, first);
+    const FilledRays filled = filler.fill(rays + first, some, first);
+    // The octant: the signs of the cosines, which say which planes are the near ones.
+    constexpr uint32_t kAll = (1U << kLanes) - 1;
+    uint32_t octant = 0;
+    uint32_t alike = filled.valid;
+    for (uint32_t j = 0; j < 3; ++j) {
+      const uint32_t falls = filled.falls[j];
+      octant |= (falls & 1) << j;
+      alike &= (falls & 1) != 0 ? falls : ~falls;
+    }
+    if (alike == kAll) {
+      const hn::CappedTag<RayEntry, kLanes> du;
+      hn::StoreU(hn::Iota(du, first), du, batch.list[octant] + octant_count[octant]);
+      octant_count[octant] += kLanes;
+      continue;
+    }
     for (uint32_t i = 0; i < some; ++i) {
-      if ((valid >> i & 1) == 0) {
+      if ((filled.valid >> i & 1) == 0) {
         store_invalid(results[first + i]);
         ++invalid;
         continue;
       }
-      const uint32_t octant = octant_of(batch.ray[first + i]);
+      octant = 0;
+      for (uint32_t j = 0; j < 3; ++j) octant |= (filled.falls[j] >> i & 1) << j;
       batch.list[octant][octant_count[octant]++] = first + i;
     }
   }

@@ -108,7 +108,7 @@ class Wave {
     const auto some = static_cast<uint32_t>(std::min<uint64_t>(kSome, count_ - begun_));
     Places places;
     for (Ray*& place : places.of) place = free_[--free_count_];
-    const uint32_t valid = RayFiller<Places>(scene_, places).fill(rays_ + begun_, some, 0);
+    const uint32_t valid = RayFiller<Places>(scene_, places).fill(rays_ + begun_, some, 0).valid;
     for (uint32_t i = 0; i < kSome; ++i) {
       if ((valid >> i & 1) != 0) {
         begin(*places.of[i], begun_ + i);
@@ -229,8 +229,8 @@ class Wave {
     return met;
   }
 
-  // All tests, then all choices: a visit as a whole waits for itself longer than the processor looks
-  // ahead.
+  // All tests, then all choices: a visit as a whole waits for itself longer than the processor
+  // looks ahead.
   HWY_INLINE void visit_nodes() {
     const WaveQueue<kWidth>& queue = now_[kVisitNode];
     Met met[kRays];
