@@ -229,10 +229,18 @@ class Wave {
     return met;
   }
 
-  // All tests, then all choices: a visit as a whole waits for itself longer than the processor
-  // looks ahead.
   HWY_INLINE void visit_nodes() {
     const WaveQueue<kWidth>& queue = now_[kVisitNode];
+    if constexpr (!Volumes::kFrameOnly) {
+      for (size_t i = 0; i < queue.count; ++i) {
+        Ray& ray = *queue.ray[i];
+        const Node& node = nodes_[key_index(ray.next)];
+        choose(ray, node, meet(ray, node));
+      }
+      return;
+    }
+    // All tests, then all choices: a visit as a whole waits for itself longer than the processor
+    // looks ahead. (Tests of nodes off the frame are longer than that anyway.)
     Met met[kRays];
     for (size_t i = 0; i < queue.count; ++i) {
       Ray& ray = *queue.ray[i];
