@@ -32,6 +32,7 @@
 #include "format/layout.h"
 #include "trace/mask_bits-inl.h"
 #include "trace/ray_group-inl.h"
+#include "trace/scaled_ray.h"
 #include "trace/tracer.h"
 #include "trace/triangle_block-inl.h"
 
@@ -60,7 +61,6 @@ HWY_INLINE V size_of(const V (&a)[3]) {
   return hn::Add(hn::Add(hn::Abs(a[0]), hn::Abs(a[1])), hn::Abs(a[2]));
 }
 
-inline constexpr float kUnit = 0x1p-24F;
 // What underflows in the sums of products below errs by less.
 inline constexpr float kUnderflow = 0x1p-120F;
 

@@ -102,7 +102,7 @@ struct PacketRays {
   void widen(const TraceScene& scene, float off, float furthest) {
     deviation = off;
     const float more = std::max(furthest - (centred.reach - scene.radius), 0.0F);
-    centred.error += 4 * off + 2 * 16 * 0x1p-24F * more;
+    centred.error += 4 * off + 2 * ScaledRay::kRelativeError * more;
   }
 
   // The furthest that any ray of a lane still matters, where limits of some vectors changed.

@@ -89,7 +89,6 @@ struct PacketBlock {
     const V front = hn::Min(hn::Min(z[0], z[1]), z[2]);
     const V back = hn::Max(hn::Max(z[0], z[1]), z[2]);
     const V depth = hn::Max(hn::Abs(front), hn::Abs(back));
-    constexpr float kUnit = 0x1p-24F;
     const float r = std::max(rays.spread[0], rays.spread[1]);
     const float c = std::max(std::abs(rays.centre[0]), std::abs(rays.centre[1]));
     const V g = hn::MulAdd(depth, hn::Set(d, r), hn::Max(largest_x, largest_y));

@@ -16,6 +16,9 @@
 
 namespace sobb {
 
+// What a float is rounded by at most, relatively: u in the comments on errors.
+inline constexpr float kUnit = 0x1p-24F;
+
 // A hit's t is rounded to float before it is scaled: where it is denormal, by up to this much.
 inline constexpr float kSmallestFloat = 0x1p-149F;
 
@@ -33,7 +36,7 @@ struct ScaledRay {
 
   // Directions whose largest component is between the inverse of it and it are left as they are.
   static constexpr float kLongest = 0x1p20F;
-  static constexpr float kRelativeError = 16 * 0x1p-24F;
+  static constexpr float kRelativeError = 16 * kUnit;
   static constexpr float kLeastError = 0x1p-100F;
   // Beyond this the products of the slab test could overflow.
   static constexpr float kFurthest = 0x1p62F;

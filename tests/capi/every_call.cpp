@@ -44,13 +44,6 @@ void expect_same(const std::vector<uint8_t>& occluded, const std::vector<sobb_hi
 
 }  // namespace
 
-std::vector<sobb_hit> oracle(const Soup& soup, const std::vector<sobb_ray>& rays) {
-  std::vector<sobb_hit> hits(rays.size());
-  const sobb_triangles triangles = soup.view();
-  EXPECT_EQ(sobb_brute_force(&triangles, rays.data(), rays.size(), hits.data(), nullptr), SOBB_OK);
-  return hits;
-}
-
 void check_calls(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays,
                  const std::vector<sobb_hit>& expected, const std::string& what) {
   std::vector<sobb_hit> hits(rays.size());

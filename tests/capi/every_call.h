@@ -9,8 +9,6 @@
 
 namespace sobb::test {
 
-std::vector<sobb_hit> oracle(const Soup& soup, const std::vector<sobb_ray>& rays);
-
 // Expects the oracle's bits from arrays with either instruction set, coherent or not, from packets
 // and from single rays, for closest and any hits.
 void check_calls(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays,

@@ -75,6 +75,15 @@ inline std::vector<sobb_hit> trace(const HierarchyHandle& hierarchy,
   return hits;
 }
 
+// What is right by definition.
+inline std::vector<sobb_hit> oracle(const Soup& soup, const std::vector<sobb_ray>& rays) {
+  std::vector<sobb_hit> hits(rays.size());
+  const sobb_triangles triangles = soup.view();
+  EXPECT_EQ(sobb_brute_force(&triangles, rays.data(), rays.size(), hits.data(), nullptr), SOBB_OK)
+      << sobb_last_error();
+  return hits;
+}
+
 inline bool same(const sobb_hit& a, const sobb_hit& b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }

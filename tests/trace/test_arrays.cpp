@@ -9,7 +9,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include "capi/random_bases.h"
 #include "hierarchy.h"
 #include "support/hostile_rays.h"
+#include "support/scratch.h"
 #include "support/soups.h"
 #include "support/thread_pool.h"
 
@@ -39,13 +39,6 @@ sobb_build_options options_of(const Case& which) {
   options.k = which.k;
   options.width = which.width;
   return options;
-}
-
-std::vector<sobb_hit> oracle(const Soup& soup, const std::vector<sobb_ray>& rays) {
-  std::vector<sobb_hit> hits(rays.size());
-  const sobb_triangles triangles = soup.view();
-  EXPECT_EQ(sobb_brute_force(&triangles, rays.data(), rays.size(), hits.data(), nullptr), SOBB_OK);
-  return hits;
 }
 
 std::vector<sobb_hit> one_by_one(const HierarchyHandle& hierarchy,
@@ -83,20 +76,6 @@ void expect_hits_by(const Intersect& intersect, const Occluded& occluded, size_t
   ASSERT_EQ(any[count], 77) << "written past the end";
 }
 
-// Memory of one task.
-class Scratch {
- public:
-  explicit Scratch(size_t size) : bytes_(::operator new(size, kAlignment)) {}
-  ~Scratch() { ::operator delete(bytes_, kAlignment); }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  void* get() const { return bytes_; }
-
- private:
-  static constexpr std::align_val_t kAlignment{64};
-  void* bytes_;
-};
-
 // By each way alone.
 void expect_hits_of_ways(sobb_isa isa, const HierarchyHandle& hierarchy,
                          const std::vector<sobb_ray>& rays, size_t count,
@@ -108,7 +87,7 @@ void expect_hits_of_ways(sobb_isa isa, const HierarchyHandle& hierarchy,
       uint64_t invalid = 0;
       for (size_t first = 0; first < count; first += kBatchRays) {
         const size_t some = std::min<size_t>(kBatchRays, count - first);
-        const Scratch scratch(kernels.scratch_bytes);  // whose end a sanitizer watches
+        const Scratch scratch(kernels.scratch_bytes);
         invalid +=
             kernel(hierarchy->tracer, rays.data() + first, some, results + first, scratch.get());
       }

@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <vector>
 
 #include "format/layout.h"
+#include "support/scratch.h"
 #include "trace/push_table.h"
 #include "trace/tracer.h"
 
@@ -82,14 +82,13 @@ TEST(Wave, VisitsTheLargestLeaf) {
     const TraceKernels& kernels = trace_kernels(isa);
     std::vector<sobb_hit> hits(rays.size());
     std::vector<uint8_t> occluded(rays.size());
-    void* scratch = ::operator new (kernels.scratch_bytes, std::align_val_t{64});
-    EXPECT_EQ(
-        kernels.intersect_array[kWaveWay](tracer, rays.data(), rays.size(), hits.data(), scratch),
-        0U);
-    EXPECT_EQ(kernels.occluded_array[kWaveWay](tracer, rays.data(), rays.size(), occluded.data(),
-                                               scratch),
+    const Scratch scratch(kernels.scratch_bytes);
+    EXPECT_EQ(kernels.intersect_array[kWaveWay](tracer, rays.data(), rays.size(), hits.data(),
+                                                scratch.get()),
               0U);
-    ::operator delete (scratch, std::align_val_t{64});
+    EXPECT_EQ(kernels.occluded_array[kWaveWay](tracer, rays.data(), rays.size(), occluded.data(),
+                                               scratch.get()),
+              0U);
     for (size_t i = 0; i < rays.size(); ++i) {
       EXPECT_EQ(hits[i].primitive, i % 3 == 0 ? SOBB_MISS : kTriangles - 1) << i;
       EXPECT_EQ(occluded[i], i % 3 == 0 ? SOBB_FREE : SOBB_OCCLUDED) << i;
