@@ -54,9 +54,9 @@ uint64_t trace_packet(const Tracer& tracer, const sobb_ray* rays, uint64_t mask,
     all = copies;
   }
   while (left != 0) {
-    const uint64_t traced = tracer.width == 4
-                                ? trace_coherent<4, kQuery, kSize>(tracer, all, left, results)
-                                : trace_coherent<8, kQuery, kSize>(tracer, all, left, results);
+    const uint64_t traced = with_volumes(tracer, [&](auto volumes) HWY_ATTR {
+      return trace_coherent<decltype(volumes), kQuery, kSize>(tracer, all, left, results);
+    });
     if (traced == 0) break;
     left &= ~traced;
   }

@@ -21,18 +21,24 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The j-th direction of a basis; along the frame that is known.
+template <class Volumes>
+HWY_INLINE uint32_t direction_of(uint32_t basis, uint32_t j) {
+  return Volumes::kFrameOnly ? j : basis_direction(basis, static_cast<int>(j));
+}
+
 // The lanes with rays that may meet a child.
-template <int W, class Rays>
-HWY_INLINE uint32_t meet_child(const Rays& rays, const PacketTable& table, const Node<W>& node,
-                               uint32_t child) {
+template <class Volumes, class Rays>
+HWY_INLINE uint32_t meet_child(const Rays& rays, const PacketTable& table,
+                               const typename Volumes::Node& node, uint32_t child) {
   const RayFloats d;
   const uint32_t basis = node.basis[child];
   uint32_t met = 0;
   for (size_t lane = 0; lane < kPacketLanes; lane += hn::Lanes(d)) {
     auto near = hn::Load(d, rays.lane_near + lane);
     auto far = hn::Load(d, rays.lane_far + lane);
-    for (int j = 0; j < 3; ++j) {
-      const uint32_t k = basis_direction(basis, j);
+    for (uint32_t j = 0; j < 3; ++j) {
+      const uint32_t k = direction_of<Volumes>(basis, j);
       const PacketTable::Entry& e = table.entry[k];
       const uint32_t falls = table.falls[k];
       near = hn::Max(
@@ -66,20 +72,20 @@ constexpr uint32_t packet_key_child(PacketKey key) { return key >> 32 & 7; }
 constexpr uint32_t packet_key_node(PacketKey key) { return static_cast<uint32_t>(key); }
 
 // The children that a lane, or the packet as a whole, may meet, and from which depth on.
-template <int W, class Rays>
+template <class Volumes, class Rays, int W = Volumes::kWidth>
 HWY_INLINE uint32_t meet_children(const TraceScene& scene, const Rays& rays, PacketTable& table,
                                   const Node<W>& node, uint32_t column, float (&nearest)[W]) {
   const hn::CappedTag<float, W> d;
   const uint32_t count = child_count(node);
   uint32_t met = 0;
-  if ((node.meta[0] & kSharedBit) != 0) {
+  if (Volumes::kFrameOnly || (node.meta[0] & kSharedBit) != 0) {
     const uint32_t basis = node.basis[0];
-    table.require(scene, rays, basis);
+    if constexpr (!Volumes::kFrameOnly) table.require(scene, rays, basis);
     for (size_t first = 0; first < W; first += hn::Lanes(d)) {
       auto near = hn::Set(d, rays.lane_near[column]);
       auto far = hn::Set(d, rays.lane_far[column]);
-      for (int j = 0; j < 3; ++j) {
-        const uint32_t k = basis_direction(basis, j);
+      for (uint32_t j = 0; j < 3; ++j) {
+        const uint32_t k = direction_of<Volumes>(basis, j);
         const PacketTable::Entry& e = table.entry[k];
         const uint32_t falls = table.falls[k];
         near = hn::Max(
@@ -130,10 +136,12 @@ template <Query kQuery>
 constexpr int kMostVisits = kQuery == Query::kAny ? 6 : 12;
 
 // Returns false if it gave up, since the rays meet more than they would one by one.
-template <int W, Query kQuery, int kSize, bool kOwnOrigins>
+template <class Volumes, Query kQuery, int kSize, bool kOwnOrigins>
 HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>& rays,
                          uint32_t lanes) {
+  constexpr int W = Volumes::kWidth;
   PacketTable table;
+  if constexpr (Volumes::kFrameOnly) table.require(scene, rays, kAxesBasis);
   const auto* nodes = static_cast<const Node<W>*>(scene.nodes);
   PacketKey stack[kMaxDepth * (W - 1) + 1];
   PacketKey* top = stack;
@@ -144,7 +152,7 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
     const bool one_lane = (lanes & (lanes - 1)) == 0;
     const uint32_t column = one_lane ? static_cast<uint32_t>(std::countr_zero(lanes)) : kAllLanes;
     alignas(64) float nearest[W];
-    uint32_t met = meet_children(scene, rays, table, node, column, nearest);
+    uint32_t met = meet_children<Volumes>(scene, rays, table, node, column, nearest);
     PacketKey key = kNoPacketKey;
     if (std::has_single_bit(met)) {
       const auto child = static_cast<uint32_t>(std::countr_zero(met));
@@ -176,7 +184,7 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
       if (--left == 0) return false;
       const Node<W>& parent = nodes[packet_key_node(key)];
       const uint32_t child = packet_key_child(key);
-      lanes = packet_key_lanes(key) & meet_child(rays, table, parent, child);
+      lanes = packet_key_lanes(key) & meet_child<Volumes>(rays, table, parent, child);
       if (lanes == 0) continue;
       const uint32_t meta = parent.meta[child];
       index = parent.reference[child];
@@ -199,7 +207,7 @@ HWY_INLINE void store(const Rays& rays, size_t i, uint8_t& occluded) {
 
 // Traces those of the rays that are coherent with the first of them, and returns which they are:
 // none if they are too few or too wide to gain.
-template <int W, Query kQuery, int kSize, class Result>
+template <class Volumes, Query kQuery, int kSize, class Result>
 HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* rays, uint64_t mask,
                                      Result* results) {
   const sobb_ray& first = rays[std::countr_zero(mask)];
@@ -219,7 +227,7 @@ HWY_NOINLINE uint64_t trace_coherent(const TraceScene& scene, const sobb_ray* ra
     constexpr int kRun = Rays::kRun;
     lanes |= static_cast<uint32_t>((taken >> (lane * kRun) & ((1U << kRun) - 1)) != 0) << lane;
   }
-  if (!traverse<W, kQuery>(scene, packet, lanes)) return 0;
+  if (!traverse<Volumes, kQuery>(scene, packet, lanes)) return 0;
   for (uint64_t left = taken; left != 0; left &= left - 1) {
     const auto i = static_cast<size_t>(std::countr_zero(left));
     store(packet, i, results[i]);
