@@ -119,8 +119,8 @@ class BlockRay {
   HWY_INLINE V projected(const float (&vertex)[3][4], size_t first, int k, double shear,
                          V depth) const {
     const Doubles d;
-    return round_to_24_bits(
-        d, hn::Sub(relative(vertex, first, k), hn::Mul(hn::Set(d, shear), depth)));
+    return round_to_24_bits(d,
+                            hn::Sub(relative(vertex, first, k), hn::Mul(hn::Set(d, shear), depth)));
   }
 
   // As triangle_test.h has them.

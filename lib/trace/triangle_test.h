@@ -5,8 +5,8 @@
 // After S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection" (2013), with the
 // projection in double and rounded once to 24 significant bits. Then
 //   - a vertex has one projection a ray, whichever triangle asks: no gap between neighbours;
-//   - products of two such numbers are exact in double: an edge function has the sign, and but for one
-//     rounding the value, of exact arithmetic on the projected vertices. So the barycentric
+//   - products of two such numbers are exact in double: an edge function has the sign, and but for
+//     one rounding the value, of exact arithmetic on the projected vertices. So the barycentric
 //     weights, and t, are those of a triangle whose vertices moved by at most half an ulp of their
 //     distance from the ray, even for one seen edge-on: the hit point never leaves the volumes
 //     that bound the triangle by more than their offsets allow (ray_table-inl.h).
