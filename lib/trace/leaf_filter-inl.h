@@ -130,67 +130,105 @@ struct FilterVerdict {
   uint32_t hits;     // surely; not told where the closest hit is asked for
 };
 
-template <Query kQuery>
-HWY_INLINE FilterVerdict filter(const FilterRays& rays, const FilterBlock& block,
-                                uint32_t triangle) {
-  const RayFloats d;
+// One triangle of a block, the same for all rays.
+struct FilterTriangle {
   using V = FilterRays::V;
-  const auto load = [&](const float(&of)[3][4], V(&to)[3]) HWY_ATTR {
-    for (int k = 0; k < 3; ++k) to[k] = hn::Set(d, of[k][triangle]);
-  };
-  V c[3];
-  V e1[3];
-  V e2[3];
-  V n[3];
-  load(block.corner, c);
-  load(block.edge1, e1);
-  load(block.edge2, e2);
-  load(block.normal, n);
-  const V size = hn::Set(d, block.size[triangle]);
-  for (int k = 0; k < 3; ++k) c[k] = hn::Sub(c[k], rays.origin[k]);
+  V corner[3];
+  V edge1[3];
+  V edge2[3];
+  V normal[3];
+  V size;
+  V normal_size;
+  V normal_error;
+
+  HWY_INLINE FilterTriangle(const FilterBlock& block, uint32_t i) {
+    const RayFloats d;
+    for (int k = 0; k < 3; ++k) {
+      corner[k] = hn::Set(d, block.corner[k][i]);
+      edge1[k] = hn::Set(d, block.edge1[k][i]);
+      edge2[k] = hn::Set(d, block.edge2[k][i]);
+      normal[k] = hn::Set(d, block.normal[k][i]);
+    }
+    size = hn::Set(d, block.size[i]);
+    normal_size = hn::Set(d, block.normal_size[i]);
+    normal_error = hn::Set(d, block.normal_error[i]);
+  }
+};
+
+// What is sure of rays before a triangle, whose C and N . D are given.
+struct SureSides {
+  hn::Mask<RayFloats> outside;
+  hn::Mask<RayFloats> inside;
+};
+template <class V>
+HWY_INLINE SureSides sides(const FilterRays& rays, const FilterTriangle& triangle, const V (&c)[3],
+                           V across) {
+  const RayFloats d;
   V r[3];
   cross(c, rays.direction, r);
-  const V across = dot(n, rays.direction);
-  const V w20 = dot(r, e2);
-  const V w10 = dot(r, e1);
+  const V w20 = dot(r, triangle.edge2);
+  const V w10 = dot(r, triangle.edge1);
   const V w01 = hn::Neg(w10);
   const V w12 = hn::Add(hn::Sub(across, w20), w10);
   const V lowest = hn::Min(hn::Min(w20, w01), w12);
   const V highest = hn::Max(hn::Max(w20, w01), w12);
+  const V size = triangle.size;
   const V of_r = hn::MulAdd(size, hn::Set(d, 8 * kUnit), hn::Mul(rays.error, hn::Set(d, 0.5F)));
   const V of_d = hn::MulAdd(size, hn::Set(d, 3 * kUnit), hn::Mul(rays.error, hn::Set(d, 0.875F)));
-  const V reach = hn::Mul(rays.speed, size);
-  const V slack = hn::MulAdd(size_of(r), of_r, hn::MulAdd(reach, of_d, rays.least));
+  const V slack =
+      hn::MulAdd(size_of(r), of_r, hn::MulAdd(hn::Mul(rays.speed, size), of_d, rays.least));
   const V minus_slack = hn::Neg(slack);
-  const auto outside = hn::And(hn::Lt(lowest, minus_slack), hn::Gt(highest, slack));
+  return {hn::And(hn::Lt(lowest, minus_slack), hn::Gt(highest, slack)),
+          hn::Or(hn::Gt(lowest, slack), hn::Lt(highest, minus_slack))};
+}
 
-  // t = depth / steepness, where the ray surely crosses the plane.
+// t = depth / steepness, where the ray surely crosses the triangle's plane.
+struct SureDepths {
+  hn::Mask<RayFloats> crosses;
+  hn::Mask<RayFloats> beyond;  // the ray's interval, or before the origin
+  hn::Mask<RayFloats> within;  // the interval
+};
+template <class V>
+HWY_INLINE SureDepths depths(const FilterRays& rays, const FilterTriangle& triangle,
+                             const V (&c)[3], V across) {
+  const RayFloats d;
   const V steepness = hn::Abs(across);
-  const V depth = hn::Xor(dot(n, c), hn::And(across, hn::Set(d, -0.0F)));
+  const V depth = hn::Xor(dot(triangle.normal, c), hn::And(across, hn::Set(d, -0.0F)));
   const V of_steepness =
-      hn::MulAdd(reach, hn::Mul(size, hn::Set(d, 2 * kUnit)), hn::Set(d, kUnderflow));
-  const V of_depth = hn::MulAdd(
-      hn::Set(d, block.normal_size[triangle]), hn::Mul(rays.error, hn::Set(d, 0.5F)),
-      hn::MulAdd(size_of(c), hn::Set(d, block.normal_error[triangle]), hn::Set(d, kUnderflow)));
-  const auto crosses = hn::Gt(steepness, of_steepness);
+      hn::MulAdd(hn::Mul(rays.speed, triangle.size), hn::Mul(triangle.size, hn::Set(d, 2 * kUnit)),
+                 hn::Set(d, kUnderflow));
+  const V of_depth =
+      hn::MulAdd(triangle.normal_size, hn::Mul(rays.error, hn::Set(d, 0.5F)),
+                 hn::MulAdd(size_of(c), triangle.normal_error, hn::Set(d, kUnderflow)));
   const V least_depth = hn::Sub(depth, of_depth);
   const V most_depth = hn::Add(depth, of_depth);
+  const V least_steepness = hn::Sub(steepness, of_steepness);
   const V most_steepness = hn::Add(steepness, of_steepness);
-  const auto beyond = hn::Or(
-      hn::Lt(most_depth, hn::Zero(d)),
-      hn::Gt(least_depth, hn::Mul(hn::Mul(rays.limit, hn::Set(d, 1 + 0x1p-20F)), most_steepness)));
-  const auto missed = hn::Or(outside, hn::And(crosses, beyond));
+  // t is rounded to float, and may be as little as the least float off its interval's ends.
+  const V first = hn::MulAdd(rays.tmin, hn::Set(d, 1 + 0x1p-20F), hn::Set(d, 0x1p-100F));
+  const V last = hn::Mul(rays.limit, hn::Set(d, 1 - 0x1p-20F));
+  const V behind = hn::Mul(rays.limit, hn::Set(d, 1 + 0x1p-20F));
+  return {
+      hn::Gt(steepness, of_steepness),
+      hn::Or(hn::Lt(most_depth, hn::Zero(d)), hn::Gt(least_depth, hn::Mul(behind, most_steepness))),
+      hn::And(hn::Gt(least_depth, hn::Mul(first, most_steepness)),
+              hn::Lt(most_depth, hn::Mul(last, least_steepness)))};
+}
+
+template <Query kQuery>
+HWY_INLINE FilterVerdict filter(const FilterRays& rays, const FilterBlock& block, uint32_t i) {
+  const RayFloats d;
+  const FilterTriangle triangle(block, i);
+  FilterRays::V c[3];
+  for (int k = 0; k < 3; ++k) c[k] = hn::Sub(triangle.corner[k], rays.origin[k]);
+  const auto across = dot(triangle.normal, rays.direction);
+  const SureSides side = sides(rays, triangle, c, across);
+  const SureDepths depth = depths(rays, triangle, c, across);
+  const auto missed = hn::Or(side.outside, hn::And(depth.crosses, depth.beyond));
   constexpr uint32_t kAll = (1U << hn::MaxLanes(RayFloats())) - 1;
   FilterVerdict verdict = {mask_bits(d, missed) ^ kAll, 0};
   if constexpr (kQuery == Query::kAny) {
-    const auto inside = hn::Or(hn::Gt(lowest, slack), hn::Lt(highest, minus_slack));
-    const V least_steepness = hn::Sub(steepness, of_steepness);
-    // t is rounded to float, and may be as little as the least float off its interval's ends.
-    const V first = hn::MulAdd(rays.tmin, hn::Set(d, 1 + 0x1p-20F), hn::Set(d, 0x1p-100F));
-    const V last = hn::Mul(rays.limit, hn::Set(d, 1 - 0x1p-20F));
-    const auto within = hn::And(hn::Gt(least_depth, hn::Mul(first, most_steepness)),
-                                hn::Lt(most_depth, hn::Mul(last, least_steepness)));
-    verdict.hits = mask_bits(d, hn::And(hn::And(inside, crosses), within));
+    verdict.hits = mask_bits(d, hn::And(hn::And(side.inside, depth.crosses), depth.within));
   }
   return verdict;
 }
