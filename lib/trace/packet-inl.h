@@ -75,7 +75,7 @@ constexpr uint32_t packet_key_node(PacketKey key) { return static_cast<uint32_t>
 template <class Volumes, class Rays, int W = Volumes::kWidth>
 HWY_INLINE uint32_t meet_children(const TraceScene& scene, const Rays& rays, PacketTable& table,
                                   const Node<W>& node, uint32_t column, float (&nearest)[W]) {
-  const hn::CappedTag<float, W> d;
+  const ChildFloats<W> d;
   const uint32_t count = child_count(node);
   uint32_t met = 0;
   if (Volumes::kFrameOnly || (node.meta[0] & kSharedBit) != 0) {
@@ -139,19 +139,20 @@ constexpr int kMostVisits = kQuery == Query::kAny ? 6 : 12;
 template <class Volumes, Query kQuery, int kSize, bool kOwnOrigins>
 HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>& rays,
                          uint32_t lanes) {
-  constexpr int W = Volumes::kWidth;
+  constexpr int kWidth = Volumes::kWidth;
+  using Node = typename Volumes::Node;
   PacketTable table;
   if constexpr (Volumes::kFrameOnly) table.require(scene, rays, kAxesBasis);
-  const auto* nodes = static_cast<const Node<W>*>(scene.nodes);
-  PacketKey stack[kMaxDepth * (W - 1) + 1];
+  const auto* nodes = static_cast<const Node*>(scene.nodes);
+  PacketKey stack[kMaxDepth * (kWidth - 1) + 1];
   PacketKey* top = stack;
   uint32_t index = 0;
   int left = kMostVisits<kQuery> * kSize;
   for (;;) {
-    const Node<W>& node = nodes[index];
+    const Node& node = nodes[index];
     const bool one_lane = (lanes & (lanes - 1)) == 0;
     const uint32_t column = one_lane ? static_cast<uint32_t>(std::countr_zero(lanes)) : kAllLanes;
-    alignas(64) float nearest[W];
+    alignas(64) float nearest[kWidth];
     uint32_t met = meet_children<Volumes>(scene, rays, table, node, column, nearest);
     PacketKey key = kNoPacketKey;
     if (std::has_single_bit(met)) {
@@ -166,7 +167,7 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
       PacketKey* const base = top;
       for (; met != 0; met &= met - 1) {
         const auto child = static_cast<uint32_t>(std::countr_zero(met));
-        prefetch_child(scene, nodes, node, child);
+        prefetch_child<kWidth>(scene, nodes, node, child);
         PacketKey other = make_packet_key(nearest[child], lanes, child, index);
         if (other < key) std::swap(other, key);
         if (other == kNoPacketKey) continue;
@@ -182,7 +183,7 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
       }
       if (packet_key_depth(key) > rays.lane_far[kAllLanes]) continue;
       if (--left == 0) return false;
-      const Node<W>& parent = nodes[packet_key_node(key)];
+      const Node& parent = nodes[packet_key_node(key)];
       const uint32_t child = packet_key_child(key);
       lanes = packet_key_lanes(key) & meet_child<Volumes>(rays, table, parent, child);
       if (lanes == 0) continue;

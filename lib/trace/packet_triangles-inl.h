@@ -155,8 +155,8 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize, kOwnOrigins>& rays,
   };
   for (int i = 0; i < 3; ++i) {
     pz[i] = relative(2, i);
-    px[i] = round_to_24_bits(d, hn::Sub(relative(0, i), hn::Mul(sx, pz[i])));
-    py[i] = round_to_24_bits(d, hn::Sub(relative(1, i), hn::Mul(sy, pz[i])));
+    px[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(0, i), hn::Mul(sx, pz[i]))));
+    py[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(1, i), hn::Mul(sy, pz[i]))));
   }
   const V w0 = hn::Sub(hn::Mul(px[2], py[1]), hn::Mul(py[2], px[1]));
   const V w1 = hn::Sub(hn::Mul(px[0], py[2]), hn::Mul(py[0], px[2]));

@@ -29,14 +29,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 // What a query is: the closest hit, or whether there is any.
 enum class Query { kClosest, kAny };
 
-// As triangle_test.h has it.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V round_to_24_bits(D d, V value) {
-  const hn::RebindToUnsigned<D> du;
-  const auto bits = hn::Add(hn::BitCast(du, value), hn::Set(du, kHalfAnUlp));
-  return hn::BitCast(d, hn::And(bits, hn::Set(du, kFloatsBits)));
-}
-
 // Of as many triangles as a vector has lanes, what ClosestHit::offer() wants.
 struct BlockHits {
   static constexpr size_t kLanes = hn::MaxLanes(hn::CappedTag<double, 4>());
@@ -115,12 +107,13 @@ class BlockRay {
                    hn::Set(d, ray_.origin[k]));
   }
 
-  // The same once projected along the ray, rounded.
+  // The same once projected along the ray, rounded to float.
   HWY_INLINE V projected(const float (&vertex)[3][4], size_t first, int k, double shear,
                          V depth) const {
     const Doubles d;
-    return round_to_24_bits(d,
-                            hn::Sub(relative(vertex, first, k), hn::Mul(hn::Set(d, shear), depth)));
+    const hn::Rebind<float, Doubles> df;
+    const V at = hn::Sub(relative(vertex, first, k), hn::Mul(hn::Set(d, shear), depth));
+    return hn::PromoteTo(d, hn::DemoteTo(df, at));
   }
 
   // As triangle_test.h has them.

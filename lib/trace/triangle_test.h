@@ -3,10 +3,10 @@
 // return the same bits.
 //
 // After S. Woop, C. Benthin, I. Wald, "Watertight Ray/Triangle Intersection" (2013), with the
-// projection in double and rounded once to 24 significant bits. Then
+// projection in double and rounded once to float. Then
 //   - a vertex has one projection a ray, whichever triangle asks: no gap between neighbours;
-//   - products of two such numbers are exact in double: an edge function has the sign, and but for
-//     one rounding the value, of exact arithmetic on the projected vertices. So the barycentric
+//   - products of two floats are exact in double: an edge function has the sign, and but for one
+//     rounding the value, of exact arithmetic on the projected vertices. So the barycentric
 //     weights, and t, are those of a triangle whose vertices moved by at most half an ulp of their
 //     distance from the ray, even for one seen edge-on: the hit point never leaves the volumes
 //     that bound the triangle by more than their offsets allow (ray_table-inl.h).
@@ -73,12 +73,12 @@ struct TriangleHit {
   float t, u, v;
 };
 
-// Rounds to the 24 significant bits of a float, halves away from zero, but with a double's range.
-// By integers: converting to float and back takes twice as long.
-inline constexpr uint64_t kHalfAnUlp = uint64_t{1} << 28;
-inline constexpr uint64_t kFloatsBits = ~((uint64_t{1} << 29) - 1);
-inline double round_to_24_bits(double value) {
-  return std::bit_cast<double>((std::bit_cast<uint64_t>(value) + kHalfAnUlp) & kFloatsBits);
+// Rounds to float. The empty statement keeps GCC 12 from dropping the conversion there and back
+// when it vectorises straight-line code (-O3; seen as two lanes of a pair left unrounded).
+inline double round_to_float(double value) {
+  auto rounded = static_cast<float>(value);
+  asm("" : "+x"(rounded));
+  return rounded;
 }
 
 // A hit's t from its value in double: -0 becomes 0.
@@ -94,8 +94,8 @@ inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const f
   double pz[3];
   for (int i = 0; i < 3; ++i) {
     pz[i] = z[i] - ray.origin[2];
-    px[i] = round_to_24_bits((x[i] - ray.origin[0]) - ray.shear_x * pz[i]);
-    py[i] = round_to_24_bits((y[i] - ray.origin[1]) - ray.shear_y * pz[i]);
+    px[i] = round_to_float((x[i] - ray.origin[0]) - ray.shear_x * pz[i]);
+    py[i] = round_to_float((y[i] - ray.origin[1]) - ray.shear_y * pz[i]);
   }
   // Weights of the vertices, up to their sum: areas of the triangles that the ray and an edge make.
   const double w0 = px[2] * py[1] - py[2] * px[1];

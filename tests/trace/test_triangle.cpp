@@ -136,31 +136,6 @@ TEST(Triangle, NeighboursLeaveNoGap) {
   }
 }
 
-// Positive, with a random exponent in a float's range, and all the bits of a double.
-double any_double(Random& random) {
-  const uint64_t exponent = 1023 - 126 + random.below(253);
-  return std::bit_cast<double>(exponent << 52 | random.bits() >> 12);
-}
-
-TEST(Triangle, RoundsProjectionsAsAFloatDoes) {
-  constexpr uint64_t kSeed = 113;
-  Random random(kSeed);
-  for (int round = 0; round < 100'000; ++round) {
-    const double value = any_double(random);
-    const double expected = static_cast<float>(value);
-    if (std::abs(value - expected) * 0x1p25 == std::abs(value)) continue;  // halfway
-    ASSERT_EQ(round_to_24_bits(value), expected) << "seed " << kSeed << " " << round;
-    ASSERT_EQ(round_to_24_bits(-value), -expected) << "seed " << kSeed << " " << round;
-    // Beyond a float's range as well.
-    ASSERT_EQ(round_to_24_bits(value * 0x1p300), expected * 0x1p300);
-    ASSERT_EQ(round_to_24_bits(value * 0x1p-300), expected * 0x1p-300);
-  }
-  EXPECT_EQ(round_to_24_bits(1 + 0x1p-24), 1 + 0x1p-23);  // halves away from zero
-  EXPECT_EQ(round_to_24_bits(-1 - 0x1p-24), -1 - 0x1p-23);
-  EXPECT_EQ(round_to_24_bits(2 - 0x1p-25), 2);  // up to the next exponent
-  EXPECT_EQ(std::bit_cast<uint64_t>(round_to_24_bits(-0.0)), std::bit_cast<uint64_t>(-0.0));
-}
-
 TEST(ClosestHit, KeepsTheNearestAndOfEqualsTheLowest) {
   const sobb_ray ray = {{0, 0, 0}, 1, {0, 0, 1}, 5};
   ClosestHit best(ray);
