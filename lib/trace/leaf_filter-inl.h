@@ -155,14 +155,14 @@ struct FilterTriangle {
   }
 };
 
-// What is sure of rays before a triangle, whose C and N . D are given.
-struct SureSides {
+// What is sure by the edge functions of a triangle, of which C and N . D are given.
+struct EdgeVerdict {
   hn::Mask<RayFloats> outside;
   hn::Mask<RayFloats> inside;
 };
 template <class V>
-HWY_INLINE SureSides sides(const FilterRays& rays, const FilterTriangle& triangle, const V (&c)[3],
-                           V across) {
+HWY_INLINE EdgeVerdict test_edges(const FilterRays& rays, const FilterTriangle& triangle,
+                                  const V (&c)[3], V across) {
   const RayFloats d;
   V r[3];
   cross(c, rays.direction, r);
@@ -182,15 +182,15 @@ HWY_INLINE SureSides sides(const FilterRays& rays, const FilterTriangle& triangl
           hn::Or(hn::Gt(lowest, slack), hn::Lt(highest, minus_slack))};
 }
 
-// t = depth / steepness, where the ray surely crosses the triangle's plane.
-struct SureDepths {
+// The same by its plane: t = depth / steepness, where the ray surely crosses it.
+struct PlaneVerdict {
   hn::Mask<RayFloats> crosses;
   hn::Mask<RayFloats> beyond;  // the ray's interval, or before the origin
   hn::Mask<RayFloats> within;  // the interval
 };
 template <class V>
-HWY_INLINE SureDepths depths(const FilterRays& rays, const FilterTriangle& triangle,
-                             const V (&c)[3], V across) {
+HWY_INLINE PlaneVerdict test_plane(const FilterRays& rays, const FilterTriangle& triangle,
+                                   const V (&c)[3], V across) {
   const RayFloats d;
   const V steepness = hn::Abs(across);
   const V depth = hn::Xor(dot(triangle.normal, c), hn::And(across, hn::Set(d, -0.0F)));
@@ -222,13 +222,13 @@ HWY_INLINE FilterVerdict filter(const FilterRays& rays, const FilterBlock& block
   FilterRays::V c[3];
   for (int k = 0; k < 3; ++k) c[k] = hn::Sub(triangle.corner[k], rays.origin[k]);
   const auto across = dot(triangle.normal, rays.direction);
-  const SureSides side = sides(rays, triangle, c, across);
-  const SureDepths depth = depths(rays, triangle, c, across);
-  const auto missed = hn::Or(side.outside, hn::And(depth.crosses, depth.beyond));
+  const EdgeVerdict edges = test_edges(rays, triangle, c, across);
+  const PlaneVerdict plane = test_plane(rays, triangle, c, across);
+  const auto missed = hn::Or(edges.outside, hn::And(plane.crosses, plane.beyond));
   constexpr uint32_t kAll = (1U << hn::MaxLanes(RayFloats())) - 1;
   FilterVerdict verdict = {mask_bits(d, missed) ^ kAll, 0};
   if constexpr (kQuery == Query::kAny) {
-    verdict.hits = mask_bits(d, hn::And(hn::And(side.inside, depth.crosses), depth.within));
+    verdict.hits = mask_bits(d, hn::And(hn::And(edges.inside, plane.crosses), plane.within));
   }
   return verdict;
 }

@@ -167,7 +167,7 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
       PacketKey* const base = top;
       for (; met != 0; met &= met - 1) {
         const auto child = static_cast<uint32_t>(std::countr_zero(met));
-        prefetch_child<kWidth>(scene, nodes, node, child);
+        prefetch_child(scene, nodes, node, child);
         PacketKey other = make_packet_key(nearest[child], lanes, child, index);
         if (other < key) std::swap(other, key);
         if (other == kNoPacketKey) continue;
