@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes and checks the default direction tables, lib/bounds/direction_sets.inc.
+"""Makes and checks the default direction tables, lib/bounds/directions/direction_sets.inc.
 
 A developer's tool; needs NumPy and SciPy. The method and the figures: docs/direction-tables.md.
 """
@@ -15,7 +15,7 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-CONSTANTS = ROOT / "lib/bounds/direction_sets.inc"
+CONSTANTS = ROOT / "lib/bounds/directions/direction_sets.inc"
 DOCUMENT = ROOT / "docs/direction-tables.md"
 COUNTS = (16, 24, 32, 64, 128)
 AXES = np.eye(3)

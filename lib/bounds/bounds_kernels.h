@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "bounds/basis_table.h"
-#include "bounds/direction_table.h"
+#include "bounds/directions/direction_table.h"
 #include "bounds/kdop.h"
 #include "sobb/sobb.h"
 

@@ -6,16 +6,16 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/builtin.h"
-#include "scene/gltf.h"
-#include "scene/loop_subdivision.h"
-#include "scene/obj.h"
+#include "scene/builtin/builtin.h"
+#include "scene/gltf/gltf.h"
+#include "scene/input/read_file.h"
 #include "scene/oblique_turn.h"
-#include "scene/off.h"
-#include "scene/ply.h"
-#include "scene/read_file.h"
 #include "scene/scene_writer.h"
-#include "scene/stl.h"
+#include "scene/subdivision/loop_subdivision.h"
+#include "scene/text/obj.h"
+#include "scene/text/off.h"
+#include "scene/text/ply.h"
+#include "scene/text/stl.h"
 #include "scene/views.h"
 
 namespace sobb {

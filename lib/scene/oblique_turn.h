@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/progress.h"
-#include "scene/builtin_math.h"
+#include "scene/builtin/math.h"
 #include "scene/scene.h"
 
 namespace sobb {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/input/utf8.h"
 #include "scene/measure.h"
-#include "scene/utf8.h"
 
 namespace sobb {
 namespace {

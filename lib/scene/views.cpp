@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "scene/json.h"
-#include "scene/read_file.h"
+#include "scene/input/json.h"
+#include "scene/input/read_file.h"
 
 namespace sobb {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/scene.h"
 
 namespace sobb {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/highway_targets.h"
-#include "trace/tracer.h"
+#include "trace/trace.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trace/kernels.cpp"
@@ -12,11 +12,11 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "trace/file_volumes-inl.h"
-#include "trace/packet-inl.h"
-#include "trace/stream-inl.h"
-#include "trace/trace_rays-inl.h"
-#include "trace/wave-inl.h"
+#include "trace/batch/traversal-inl.h"
+#include "trace/nodes/file_volumes-inl.h"
+#include "trace/packet/traversal-inl.h"
+#include "trace/single/trace_rays-inl.h"
+#include "trace/wave/traversal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {

@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "trace/triangle_test.h"
+#include "trace/triangles/triangle_test.h"
 
 namespace sobb {
 namespace {

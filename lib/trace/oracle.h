@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "base/scheduler.h"
-#include "build/mesh.h"
+#include "builder/mesh.h"
 #include "sobb/sobb.h"
 
 namespace sobb {

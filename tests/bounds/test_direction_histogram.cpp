@@ -6,7 +6,7 @@
 #include <memory_resource>
 #include <string>
 
-#include "bounds/direction_histogram.h"
+#include "bounds/directions/direction_histogram.h"
 #include "support/soups.h"
 
 namespace sobb::test {

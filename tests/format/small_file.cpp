@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "format/checksum.h"
-#include "format/reader.h"
+#include "format/reader/reader.h"
 
 namespace sobb::test {
 namespace {

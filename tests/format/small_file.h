@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "format/image.h"
 #include "format/view.h"
-#include "format/writer.h"
+#include "format/writer/writer.h"
 
 namespace sobb::test {
 

@@ -10,7 +10,7 @@
 #include <new>
 #include <string>
 
-#include "format/reader.h"
+#include "format/reader/reader.h"
 #include "format/small_file.h"
 #include "format/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-#include "format/reader.h"
+#include "format/reader/reader.h"
 #include "format/small_file.h"
 
 namespace sobb {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "format/checksum.h"
-#include "format/reader.h"
+#include "format/reader/reader.h"
 #include "format/small_file.h"
 
 namespace sobb {

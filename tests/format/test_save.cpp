@@ -15,7 +15,7 @@
 
 #include "base/error.h"
 #include "format/temporary_folder.h"
-#include "format/writer.h"
+#include "format/writer/writer.h"
 
 namespace sobb {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "format/temporary_folder.h"
-#include "format/writer.h"
+#include "format/writer/writer.h"
 
 namespace sobb {
 namespace {

@@ -9,11 +9,11 @@
 #include "base/error.h"
 #include "fuzz/heap_watch.h"
 #include "fuzz/targets.h"
-#include "scene/gltf.h"
-#include "scene/obj.h"
-#include "scene/off.h"
-#include "scene/ply.h"
-#include "scene/stl.h"
+#include "scene/gltf/gltf.h"
+#include "scene/text/obj.h"
+#include "scene/text/off.h"
+#include "scene/text/ply.h"
+#include "scene/text/stl.h"
 #include "scene/views.h"
 
 namespace sobb::fuzz {

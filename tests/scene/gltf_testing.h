@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/gltf.h"
+#include "scene/gltf/gltf.h"
 #include "scene/reader_testing.h"
 
 namespace sobb::gltf_testing {

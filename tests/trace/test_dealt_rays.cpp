@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "trace/dealt_rays.h"
+#include "trace/schedule/dealt_rays.h"
 
 namespace sobb::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "trace/fastest_way.h"
+#include "trace/schedule/fastest_mode.h"
 
 namespace sobb::test {
 namespace {

@@ -14,7 +14,7 @@
 #include "hierarchy.h"
 #include "support/scratch.h"
 #include "support/soups.h"
-#include "trace/tracer.h"
+#include "trace/trace.h"
 
 namespace sobb::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <string>
 
+#include "base/simd/pack_table.h"
 #include "support/soups.h"
-#include "trace/pack_table.h"
-#include "trace/ray_entry.h"
-#include "trace/tracer.h"
+#include "trace/batch/ray_entry.h"
+#include "trace/trace.h"
 
 namespace sobb::test {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The triangle test that decides, the hit that is kept, and the order of the traversal's stack.
-#include "trace/triangle_test.h"
+#include "trace/triangles/triangle_test.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "support/soups.h"
-#include "trace/stack_key.h"
+#include "trace/nodes/stack_key.h"
 
 namespace sobb::test {
 namespace {

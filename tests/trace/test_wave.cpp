@@ -11,8 +11,8 @@
 
 #include "format/layout.h"
 #include "support/scratch.h"
-#include "trace/push_table.h"
-#include "trace/tracer.h"
+#include "trace/trace.h"
+#include "trace/wave/push_table.h"
 
 namespace sobb::test {
 namespace {

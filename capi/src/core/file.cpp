@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "../guard.h"
-#include "format/reader.h"
-#include "format/writer.h"
+#include "format/reader/reader.h"
+#include "format/writer/writer.h"
 #include "hierarchy.h"
 
 using sobb::guard;

@@ -9,7 +9,7 @@
 
 #include "../guard.h"
 #include "base/isa.h"
-#include "bounds/direction_table.h"
+#include "bounds/directions/direction_table.h"
 #include "format/statistics.h"
 
 using sobb::guard;

@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "base/memory.h"
-#include "build/build.h"
+#include "builder/build.h"
 #include "format/image.h"
 #include "format/view.h"
 #include "sobb/sobb.h"
-#include "trace/tracer.h"
+#include "trace/trace.h"
 
 struct sobb_hierarchy {
   std::shared_ptr<sobb::Memory> memory;  // holds this object and the image

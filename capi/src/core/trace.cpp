@@ -7,8 +7,8 @@
 #include "base/scheduler.h"
 #include "base/scratch_pool.h"
 #include "hierarchy.h"
-#include "trace/array_tracer.h"
 #include "trace/oracle.h"
+#include "trace/schedule/array_tracer.h"
 
 using sobb::guard;
 using sobb::kPacketSize;

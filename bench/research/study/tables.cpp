@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// What does another direction table bring? Areas on the binary hierarchy, and the volumes and
+// triangles that a secondary ray meets there and on the library's 8-wide nodes.
+#include <filesystem>
+
+#include "builder/topology/frame.h"
+#include "builder/volumes/scene_directions.h"
+#include "study/basis_rules.h"
+#include "study/counting_trace.h"
+#include "study/direction_file.h"
+#include "study/study_scene.h"
+
+namespace sobb::study {
+namespace {
+
+constexpr uint32_t kPlanes[] = {32, 48, 64};
+constexpr BasisRule kAxes = {BasisFrom::kAxes, SOBB_STRATEGY_K2, false};
+constexpr BasisRule kOwn = {BasisFrom::kEachChild, SOBB_STRATEGY_K3, false};
+constexpr BasisRule kShared = {BasisFrom::kSumOrAxes, SOBB_STRATEGY_K2, true};
+
+struct NamedTable {
+  std::string name;
+  std::vector<Direction> directions;
+};
+
+NamedTable default_table(uint32_t k) {
+  const auto directions = default_directions(k);
+  return {k == 6 ? "AABB" : "default " + std::to_string(k), {directions.begin(), directions.end()}};
+}
+
+NamedTable fitted_table(StudyScene& scene, uint32_t k) {
+  const auto directions = scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory());
+  return {"fitted " + std::to_string(k), {directions.begin(), directions.end()}};
+}
+
+Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
+                   const std::vector<Direction>& directions, const BasisRule& rule,
+                   WorkCounter& counter) {
+  const DirectionTable table = make_direction_table(directions);
+  const MeshSummary& summary = scene.summary();
+  const Scheduler& scheduler = scene.scheduler();
+  const Tree tree = make_tree(topology, width, scheduler, scene.memory());
+  const float centre[3] = {summary.centre.x, summary.centre.y, summary.centre.z};
+  const auto kdops = fit_children(tree, scene.mesh(), centre, table, scheduler);
+  const BasisChooser chooser(directions, tree, kdops, summary.radius, scheduler, scene.memory());
+  const auto bases = chooser.choose(rule);
+  const AreaSums areas = sum_areas(tree, kdops, bases, table, scene.box_area());
+  const Work work = counter.count({tree, kdops, bases, table, summary, scene.mesh()});
+  return {{"rule", rule.name()},
+          {"inner_area", rounded(areas.inner)},
+          {"leaf_area", rounded(areas.leaf)},
+          {"work", to_json(work)}};
+}
+
+Json measure_table(StudyScene& scene, const NamedTable& table, WorkCounter& counter) {
+  const Frame frame(table.directions, scene.summary().centre);
+  const Topology topology = scene.build_topology(frame);
+  const bool aabb = table.directions.size() == 3;
+  return {
+      {"table", table.name},
+      {"binary", measure_width(scene, topology, 2, table.directions, aabb ? kAxes : kOwn, counter)},
+      {"wide",
+       measure_width(scene, topology, 8, table.directions, aabb ? kAxes : kShared, counter)}};
+}
+
+}  // namespace
+
+int tables(const StudyOptions& options) {
+  std::vector<NamedTable> tables;
+  tables.push_back(default_table(6));
+  for (const uint32_t k : kPlanes) tables.push_back(default_table(k));
+  for (const std::string& path : options.directions) {
+    tables.push_back({std::filesystem::path(path).stem().string(), read_directions(path)});
+  }
+  write_report(options, "tables", for_each_scene(options, [&](StudyScene& scene) {
+                 const auto rays = scene.secondary_rays(options.size);
+                 WorkCounter counter(rays, scene.scheduler());
+                 Json rows = Json::array();
+                 for (const NamedTable& table : tables) {
+                   rows.push_back(measure_table(scene, table, counter));
+                 }
+                 for (const uint32_t k : kPlanes) {
+                   rows.push_back(measure_table(scene, fitted_table(scene, k), counter));
+                 }
+                 return Json{{"rays", rays.size()}, {"tables", rows}};
+               }));
+  return 0;
+}
+
+}  // namespace sobb::study

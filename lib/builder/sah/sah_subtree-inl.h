@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// A subtree, by one thread, depth first. Included once for each Highway target.
+#if defined(SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H
+#undef SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H
+#else
+#define SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H
+#endif
+
+#include "builder/sah/sah_kinds-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+class SubtreeBuilder {
+ public:
+  explicit SubtreeBuilder(SahSubtree& subtree) : subtree_(subtree) {}
+
+  void build() {
+    const SahNode& node = subtree_.node;
+    subtree_.pairs.reserve(node.count + node.room);  // so that none moves
+    add(node, 0, subtree_.depth, subtree_.root);
+    // Not shrink_to_fit(), which takes a refused allocation for success.
+    auto& pairs = subtree_.pairs;
+    std::pmr::vector<NodePair>(pairs.begin(), pairs.end(), pairs.get_allocator()).swap(pairs);
+  }
+
+ private:
+  // Makes a node of the references of array `from`.
+  void add(const SahNode& node, int from, uint32_t depth, TopologyNode& made) {
+    made.box = node.extent.box.box();
+    Split split;
+    if (node.count > 1 && depth < kDeepestSplit && !is_one_block(node, from)) {
+      split = find_best(node, from);
+    }
+    made.is_leaf = node.count <= kMaxLeafReferences && is_leaf_cheaper(node.count, split.cost);
+    if (made.is_leaf) return finish(node, from, made);
+
+    SahNode child[2];
+    if (split.axis >= 0) {
+      divide(node, from, split, child);
+      from = 1 - from;
+    } else {
+      halve(node, from, child);
+    }
+    made.first = static_cast<uint32_t>(subtree_.pairs.size());
+    NodePair& pair = subtree_.pairs.emplace_back();
+    add(child[0], from, depth + 1, pair.child[0]);
+    add(child[1], from, depth + 1, pair.child[1]);
+    made.count = pair.count();
+  }
+
+  static bool is_leaf_cheaper(uint64_t count, float split_cost) {
+    return kLeafBlockCost * blocks(count) <= kBinaryStepCost + kLeafBlockCost * split_cost;
+  }
+
+  // Whether one block is cheaper than any split, which need not be looked for then: a side is no
+  // smaller than its largest reference, unless that may be cut.
+  bool is_one_block(const SahNode& node, int from) const {
+    if (blocks(node.count) > 1 || subtree_.cutting != nullptr) return false;
+    const Areas area(node.extent.box);
+    const SahReference* references = subtree_.at[from] + node.begin;
+    return std::any_of(references, references + node.count, [&](const SahReference& reference) {
+      FlatBox box = FlatBox::nothing();
+      grow(box.at, reference.lower);
+      return is_leaf_cheaper(node.count, area(box));
+    });
+  }
+
+  Split find_best(const SahNode& node, int from) {
+    const SahReference* references = subtree_.at[from] + node.begin;
+    Split best;
+    for (const SplitKind kind : kSplitKinds) {
+      const Binning binning = make_binning(kind, node, best, subtree_.cutting);
+      if (binning.count == 0) continue;
+      clear(bins_, binning);
+      bin(references, node.count, binning, subtree_.cutting, bins_);
+      Split split = find_split(node, bins_, binning);
+      if (!is_better(node, split, best)) continue;
+      if (kind == SplitKind::kPlanes) {
+        count_parts(references, node.count, node, split, *subtree_.cutting, split.placed);
+        if (split.placed[0] == 0 || split.placed[1] == 0) continue;
+      }
+      best = split;
+    }
+    return best;
+  }
+
+  void divide(const SahNode& node, int from, const Split& split, SahNode child[2]) const {
+    place_sides(node, split.placed, child);
+    SahReference* to = subtree_.at[1 - from];
+    SahExtent side[2] = {SahExtent::nothing(), SahExtent::nothing()};
+    partition(subtree_.at[from] + node.begin, node.count, node, split, subtree_.cutting,
+              to + child[0].begin, to + child[1].begin, side);
+    for (int k = 0; k < 2; ++k) child[k].extent = side[k];
+  }
+
+  // As they come: where nothing tells the references apart.
+  void halve(const SahNode& node, int from, SahNode child[2]) const {
+    const uint64_t half = node.count / 2;
+    const SahReference* references = subtree_.at[from];
+    for (int side = 0; side < 2; ++side) {
+      child[side] = {SahExtent::nothing(), node.begin + side * half,
+                     side == 0 ? half : node.count - half, 0};
+      bound(references + child[side].begin, child[side].count, child[side].extent);
+    }
+  }
+
+  // Parts of one triangle, next to each other, become one again.
+  void finish(const SahNode& node, int from, TopologyNode& leaf) const {
+    const SahReference* references = subtree_.at[from] + node.begin;
+    uint32_t* primitives = subtree_.primitives + node.begin;
+    Box* boxes = subtree_.boxes == nullptr ? nullptr : subtree_.boxes + node.begin;
+    uint32_t kept = 0;
+    for (uint64_t i = 0; i < node.count; ++i) {
+      if (kept > 0 && primitives[kept - 1] == references[i].primitive) {
+        boxes[kept - 1].grow(references[i].box());
+        continue;
+      }
+      primitives[kept] = references[i].primitive;
+      if (boxes != nullptr) boxes[kept] = references[i].box();
+      ++kept;
+    }
+    leaf.first = static_cast<uint32_t>(node.begin);
+    leaf.count = kept;
+  }
+
+  SahSubtree& subtree_;
+  Bins bins_;
+};
+
+void build(SahSubtree& subtree) { SubtreeBuilder(subtree).build(); }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif

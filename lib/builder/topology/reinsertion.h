@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A binary hierarchy improved by moving subtrees to better places (D. Meister, J. Bittner,
+// "Parallel Reinsertion for Bounding Volume Hierarchy Optimization", 2018).
+#pragma once
+
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/scheduler.h"
+#include "builder/topology/topology.h"
+
+namespace sobb {
+
+// In each round the nodes of the largest boxes, this share of all, look for a better place.
+struct ReinsertionEffort {
+  uint32_t rounds;
+  double share;
+};
+
+// Lowers the sum of inner nodes' areas; leaves stay as they are. Pairs lie depth first before and
+// after. The same for any number of threads. Reports to `stage`, of as many items as rounds.
+void reinsert(BinaryNodes& nodes, const ReinsertionEffort& effort, const Scheduler& scheduler,
+              Memory& memory, ProgressStage& stage);
+
+}  // namespace sobb

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// See gltf_nodes.h.
+#include "scene/gltf/nodes.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace sobb {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+GltfTransform from_matrix(const std::vector<double>& columns) {
+  GltfTransform result;
+  bool identity = true;
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 3; ++column) {
+      result.linear[row][column] = columns[4 * column + row];
+      identity = identity && result.linear[row][column] == (row == column ? 1 : 0);
+    }
+    result.translation[row] = columns[12 + row];
+    identity = identity && result.translation[row] == 0;
+  }
+  result.identity = identity;
+  return result;
+}
+
+// The rotation matrix of q / |q|; files round their unit quaternions.
+std::array<Vector, 3> rotation(double x, double y, double z, double w) {
+  const double norm = x * x + y * y + z * z + w * w;
+  const double s = norm > 0 ? 2 / norm : 0;
+  return {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+           {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
+           {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
+}
+
+GltfTransform local_transform(const tinygltf::Node& node) {
+  if (!node.matrix.empty()) return from_matrix(node.matrix);
+  GltfTransform result;
+  const auto all = [](const std::vector<double>& numbers, double value) {
+    return std::all_of(numbers.begin(), numbers.end(), [=](double x) { return x == value; });
+  };
+  const std::vector<double>& q = node.rotation;
+  const bool turned = !q.empty() && (q[0] != 0 || q[1] != 0 || q[2] != 0);
+  result.identity = !turned && all(node.scale, 1) && all(node.translation, 0);
+  if (turned) result.linear = rotation(q[0], q[1], q[2], q[3]);
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t k = 0; k < node.scale.size(); ++k) result.linear[row][k] *= node.scale[k];
+    if (!node.translation.empty()) result.translation[row] = node.translation[row];
+  }
+  return result;
+}
+
+GltfTransform product(const GltfTransform& outer, const GltfTransform& inner) {
+  if (outer.identity) return inner;
+  if (inner.identity) return outer;
+  GltfTransform result;
+  result.identity = false;
+  result.translation = outer.point(inner.translation);
+  for (size_t row = 0; row < 3; ++row) {
+    for (size_t column = 0; column < 3; ++column) {
+      result.linear[row][column] = outer.linear[row][0] * inner.linear[0][column] +
+                                   outer.linear[row][1] * inner.linear[1][column] +
+                                   outer.linear[row][2] * inner.linear[2][column];
+    }
+  }
+  return result;
+}
+
+class Walk {
+ public:
+  Walk(const tinygltf::Model& model, const std::string& name)
+      : model_(model), name_(name), reached_(model.nodes.size()) {}
+
+  std::vector<GltfPlacedNode> run() {
+    push(roots(), {});
+    std::vector<GltfPlacedNode> result;
+    while (!waiting_.empty()) {  // a stack of our own: a file may nest its nodes as it likes
+      const GltfPlacedNode next = waiting_.back();
+      waiting_.pop_back();
+      result.push_back(next);
+      push(model_.nodes[size_t(next.node)].children, next.transform);
+    }
+    if (model_.scenes.empty() && result.size() != model_.nodes.size()) {
+      fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes form a cycle", name_.c_str());
+    }
+    return result;
+  }
+
+ private:
+  std::vector<int> roots() const {
+    if (!model_.scenes.empty()) {
+      const int scene = std::max(model_.defaultScene, 0);
+      if (size_t(scene) >= model_.scenes.size()) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: the default scene, %d, does not exist", name_.c_str(),
+             scene);
+      }
+      return model_.scenes[size_t(scene)].nodes;
+    }
+    std::vector<bool> child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int i : node.children) {
+        if (i >= 0 && size_t(i) < child.size()) child[size_t(i)] = true;
+      }
+    }
+    std::vector<int> result;
+    for (size_t i = 0; i < child.size(); ++i) {
+      if (!child[i]) result.push_back(int(i));
+    }
+    return result;
+  }
+
+  void push(const std::vector<int>& nodes, const GltfTransform& parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      if (*node < 0 || size_t(*node) >= reached_.size()) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: node %d does not exist", name_.c_str(), *node);
+      }
+      if (reached_[size_t(*node)]) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes[%d] is reached twice", name_.c_str(), *node);
+      }
+      reached_[size_t(*node)] = true;
+      waiting_.push_back({*node, product(parent, local_transform(model_.nodes[size_t(*node)]))});
+    }
+  }
+
+  const tinygltf::Model& model_;
+  const std::string& name_;
+  std::vector<bool> reached_;
+  std::vector<GltfPlacedNode> waiting_;
+};
+
+}  // namespace
+
+std::array<double, 3> GltfTransform::vector(const std::array<double, 3>& v) const {
+  std::array<double, 3> result{};
+  for (size_t k = 0; k < 3; ++k) {
+    result[k] = linear[k][0] * v[0] + linear[k][1] * v[1] + linear[k][2] * v[2];
+  }
+  return result;
+}
+
+std::array<double, 3> GltfTransform::point(const std::array<double, 3>& p) const {
+  std::array<double, 3> result = vector(p);
+  for (size_t k = 0; k < 3; ++k) result[k] += translation[k];
+  return result;
+}
+
+std::vector<GltfPlacedNode> place_gltf_nodes(const tinygltf::Model& model,
+                                             const std::string& name) {
+  return Walk(model, name).run();
+}
+
+}  // namespace sobb

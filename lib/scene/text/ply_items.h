@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The items of a PLY file's elements, value by value: one class for its text, one for its bytes,
+// with the same functions. Either is a cursor that may be copied, to read a part twice.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scene/input/pace.h"
+#include "scene/text/ply_header.h"
+#include "scene/text/text_reader.h"
+
+namespace sobb {
+
+// An item a line.
+class PlyTextItems {
+ public:
+  // `text` stands on the last line of the header.
+  explicit PlyTextItems(const TextReader& text) : text_(text) {}
+
+  // Every item is read between these two, property by property.
+  void begin(const PlyElement& element, uint64_t index);
+  void end() { text_.expect_line_end(); }
+
+  float number(const PlyProperty& property) { return text_.number(property.name.c_str()); }
+  uint64_t length(const PlyProperty&) { return text_.count("a list's length", UINT32_MAX); }
+  uint64_t vertex_index(const PlyProperty&, uint64_t vertices) {
+    return text_.vertex_index(vertices);
+  }
+  void skip(const PlyProperty& property, uint64_t values) {
+    text_.skip(values, property.name.c_str());
+  }
+
+  std::string place() const { return text_.place(); }
+  void expect_end_of_file();
+
+ private:
+  TextReader text_;
+};
+
+// Values packed without gaps.
+class PlyBinaryItems {
+ public:
+  PlyBinaryItems(std::string_view bytes, std::endian order, const char* name, SceneWriter& writer)
+      : at_(bytes.data()),
+        end_(bytes.data() + bytes.size()),
+        pace_(bytes, &writer),
+        order_(order),
+        name_(name) {}
+
+  void begin(const PlyElement& element, uint64_t index) {
+    element_ = &element;
+    index_ = index;
+  }
+  void end() {}
+
+  float number(const PlyProperty& property) { return nearest_float(value(property.type)); }
+  uint64_t length(const PlyProperty& property);
+  uint64_t vertex_index(const PlyProperty& property, uint64_t vertices);
+  void skip(const PlyProperty& property, uint64_t values) { take(values * size_of(property.type)); }
+
+  std::string place() const;
+  void expect_end_of_file() const;
+
+ private:
+  // The next bytes; SCENE_SYNTAX where they are not there.
+  const char* take(uint64_t bytes);
+  double value(PlyType type);  // exact, of every type
+
+  const char* at_;
+  const char* end_;
+  Pace pace_;
+  std::endian order_;
+  const char* name_;
+  const PlyElement* element_ = nullptr;
+  uint64_t index_ = 0;
+};
+
+}  // namespace sobb

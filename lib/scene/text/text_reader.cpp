@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// See text_reader.h.
+#include "scene/text/text_reader.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <charconv>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace sobb {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_line_end(char c) { return c == '\n' || c == '\r'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+// std::from_chars takes no plus sign.
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plus ? word.substr(1) : word;
+}
+
+// Whether a well-formed number, known to be out of double's range, is below rather than above it:
+// the power of ten of its first digit other than zero decides.
+bool is_tiny(std::string_view number) {
+  int64_t power = 0;
+  bool point = false;
+  bool significant = false;
+  for (size_t i = 0; i < number.size(); ++i) {
+    const char c = number[i];
+    if (lower(c) == 'e') {
+      const std::string_view digits = without_plus(number.substr(i + 1));
+      int64_t exponent = 0;
+      const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+      if (end.ec != std::errc()) return digits.front() == '-';
+      return power + exponent < 0;
+    }
+    point |= c == '.';
+    if (!is_digit(c)) continue;
+    significant |= c != '0';
+    if (significant && !point) ++power;
+    if (!significant && point) --power;
+  }
+  return power < 0;
+}
+
+template <class T>
+std::errc parse_integer(std::string_view word, T& value) {
+  const std::string_view digits = without_plus(word);
+  const char* end = digits.data() + digits.size();
+  const auto result = std::from_chars(digits.data(), end, value);
+  return result.ptr == end ? result.ec : std::errc::invalid_argument;
+}
+
+}  // namespace
+
+TextReader::TextReader(std::string_view bytes, const char* name, SceneWriter* writer)
+    : at_(bytes.data()), end_(bytes.data() + bytes.size()), pace_(bytes, writer), name_(name) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (bytes.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+}
+
+const char* TextReader::line_end(const char* from) const {
+  while (from != end_ && !is_line_end(*from)) ++from;
+  return from;
+}
+
+const char* TextReader::after_line_end(const char* line_end) const {
+  if (line_end == end_) return end_;
+  const bool two = *line_end == '\r' && line_end + 1 != end_ && line_end[1] == '\n';
+  return line_end + (two ? 2 : 1);
+}
+
+bool TextReader::next_line() {
+  if (line_ > 0) at_ = after_line_end(line_end(at_));
+  if (at_ == end_) return false;
+  pace_.at(at_);
+  ++line_;
+  return true;
+}
+
+bool TextReader::next_line_with_words() {
+  while (next_line()) {
+    if (!at_line_end()) return true;
+  }
+  return false;
+}
+
+bool TextReader::ends_word(const char* p) const {
+  if (p == end_ || is_blank(*p) || is_line_end(*p)) return true;
+  return *p == '\\' && (p + 1 == end_ || is_line_end(p[1]));
+}
+
+void TextReader::skip_blanks() {
+  pace_.at(at_);
+  for (; at_ != end_ && !is_line_end(*at_) && ends_word(at_); ++at_) {
+    if (*at_ != '\\' || at_ + 1 == end_) continue;
+    at_ = after_line_end(at_ + 1) - 1;
+    ++line_;
+  }
+}
+
+bool TextReader::at_line_end() {
+  skip_blanks();
+  return at_ == end_ || is_line_end(*at_) || *at_ == '#';
+}
+
+std::string_view TextReader::word() {
+  if (at_line_end()) return {};
+  const char* begin = at_;
+  while (!ends_word(at_)) ++at_;
+  return {begin, static_cast<size_t>(at_ - begin)};
+}
+
+std::string_view TextReader::rest_of_line() {
+  while (at_ != end_ && is_blank(*at_)) ++at_;
+  const char* begin = at_;
+  at_ = line_end(at_);
+  const char* last = at_;
+  while (last != begin && is_blank(last[-1])) --last;
+  return {begin, static_cast<size_t>(last - begin)};
+}
+
+float TextReader::number(const char* what) {
+  skip_blanks();
+  float value = 0;
+  // Most numbers need no second look; the others are read again, with care.
+  const auto result = std::from_chars(at_, end_, value);
+  if (result.ec == std::errc() && ends_word(result.ptr)) {
+    at_ = result.ptr;
+    return value;
+  }
+  const std::string_view text = word();
+  if (!parse_number(text, value)) refuse_word(text, what);
+  return value;
+}
+
+uint64_t TextReader::count(const char* what, uint64_t max) {
+  const std::string_view text = word();
+  uint64_t value = 0;
+  const std::errc error = parse_integer(text, value);
+  if (error == std::errc::result_out_of_range || (error == std::errc() && value > max)) {
+    fail_here(SOBB_ERROR_SCENE_SYNTAX, "%s is %s, more than can be", what, quote(text).c_str());
+  }
+  if (error != std::errc()) refuse_word(text, what);
+  return value;
+}
+
+uint64_t TextReader::vertex_index(uint64_t vertices) {
+  const std::string_view text = word();
+  int64_t value = 0;
+  const std::errc error = parse_integer(text, value);
+  if (error == std::errc::invalid_argument) refuse_word(text, "the index of a vertex");
+  if (error != std::errc() || value < 0 || static_cast<uint64_t>(value) >= vertices) {
+    fail_here(SOBB_ERROR_INDEX, "there is no vertex %s: they are %llu, from 0", quote(text).c_str(),
+              static_cast<unsigned long long>(vertices));
+  }
+  return static_cast<uint64_t>(value);
+}
+
+void TextReader::skip(uint64_t words, const char* what) {
+  for (; words > 0; --words) {
+    if (word().empty()) refuse_word({}, what);
+  }
+}
+
+void TextReader::expect_line_end() {
+  if (!at_line_end()) refuse_word(word(), "the line's end");
+}
+
+bool TextReader::take_word(std::string_view expected) {
+  TextReader ahead = *this;
+  const std::string_view found = ahead.word();
+  const bool same = std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
+                               [](char a, char b) { return lower(a) == lower(b); });
+  if (same) *this = ahead;
+  return same;
+}
+
+void TextReader::expect_word(std::string_view expected) {
+  if (!take_word(expected)) refuse_word(word(), std::string(expected).c_str());
+}
+
+std::string_view TextReader::text_after_line() const {
+  const char* next = after_line_end(line_end(at_));
+  return {next, static_cast<size_t>(end_ - next)};
+}
+
+std::string TextReader::place() const {
+  return "line " + std::to_string(std::max<uint64_t>(line_, 1));
+}
+
+void TextReader::fail_here(sobb_status status, const char* format, ...) const {
+  char message[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  throw Error(status, std::string(name_) + ": " + place() + ": " + message);
+}
+
+void TextReader::refuse_word(std::string_view word, const char* what) const {
+  if (word.empty()) {
+    fail_here(SOBB_ERROR_SCENE_SYNTAX, "the line ends where %s should be", what);
+  }
+  fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" where %s should be", quote(word).c_str(), what);
+}
+
+bool parse_number(std::string_view word, float& value) {
+  const std::string_view number = without_plus(word);
+  const char* end = number.data() + number.size();
+  const auto narrow = std::from_chars(number.data(), end, value);
+  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) return false;
+  if (narrow.ec == std::errc()) return true;
+  double wide = 0;
+  if (std::from_chars(number.data(), end, wide).ec == std::errc::result_out_of_range) {
+    wide = is_tiny(number) ? 0.0 : number.front() == '-' ? -DBL_MAX : DBL_MAX;
+  }
+  value = nearest_float(wide);
+  return true;
+}
+
+float nearest_float(double value) {
+  if (std::isfinite(value)) value = std::clamp<double>(value, -FLT_MAX, FLT_MAX);
+  return static_cast<float>(value);
+}
+
+std::string quote(std::string_view word) {
+  constexpr size_t kLongest = 40;
+  std::string text(word.substr(0, kLongest));
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return word.size() > kLongest ? text + "..." : text;
+}
+
+}  // namespace sobb

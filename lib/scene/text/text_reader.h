@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// A text file as its readers see it: lines, the words and numbers on them, and "line N" for
+// messages.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scene/input/pace.h"
+#include "sobb/sobb.h"
+
+namespace sobb {
+
+// A cursor over text: never past its end, never back, so that reading takes linear time. It may be
+// copied, to read a part twice.
+//
+// Lines end with LF, CR LF or CR. Words are separated by blanks; a backslash before a line's end is
+// a blank that joins two lines (OBJ); a word that begins with # ends the line (OBJ, OFF). In the
+// data lines of PLY and STL neither occurs.
+class TextReader {
+ public:
+  // `name` is the source, for messages; `writer`, if any, is told how far reading is. Borrowed all.
+  TextReader(std::string_view bytes, const char* name, SceneWriter* writer = nullptr);
+
+  // Moves to the next line, at first to line 1; false at the end of the text. What is left of the
+  // current line is passed over, without regard to backslashes.
+  bool next_line();
+  // Moves to the next line that has a word; false where there is none.
+  bool next_line_with_words();
+
+  // The next word of the line; empty at the line's end.
+  std::string_view word();
+  // The line from here, without blanks around it, # and backslashes included.
+  std::string_view rest_of_line();
+  bool at_line_end();
+
+  // The next word as a number; SCENE_SYNTAX where it is none. `what` is what was expected there.
+  // Beyond float's range: the largest float, which the scene's limit then refuses.
+  float number(const char* what);
+  // The next word as a number from 0 to `max`, where more is SCENE_SYNTAX too.
+  uint64_t count(const char* what, uint64_t max);
+  // The next word as the index of one of `vertices` vertices; INDEX where there is no such vertex.
+  uint64_t vertex_index(uint64_t vertices);
+  // Passes over `words` words; SCENE_SYNTAX where the line has fewer.
+  void skip(uint64_t words, const char* what);
+
+  void expect_line_end();
+  void expect_word(std::string_view expected);  // ASCII letters in either case
+  bool take_word(std::string_view expected);    // whether it is the next one; else stays before it
+
+  // The text after the current line.
+  std::string_view text_after_line() const;
+  // Bytes from here to the end of the text.
+  uint64_t bytes_left() const { return static_cast<uint64_t>(end_ - at_); }
+
+  std::string place() const;
+  // Throws with the source's name and the place.
+  [[noreturn]] __attribute__((format(printf, 3, 4))) void fail_here(sobb_status status,
+                                                                    const char* format, ...) const;
+
+ private:
+  const char* line_end(const char* from) const;
+  const char* after_line_end(const char* line_end) const;
+  bool ends_word(const char* p) const;
+  void skip_blanks();
+  [[noreturn]] void refuse_word(std::string_view word, const char* what) const;
+
+  const char* at_;
+  const char* end_;
+  Pace pace_;
+  const char* name_;
+  uint64_t line_ = 0;  // 0 before the first
+};
+
+// A word as a number, in any notation of C's but hexadecimal, with nan and inf; false where it is
+// none. Beyond float's range: the largest float, or zero.
+bool parse_number(std::string_view word, float& value);
+
+// The float nearest to a double; the largest one for finite doubles beyond float's range.
+float nearest_float(double value);
+
+// A word for a message: cut where it is long, bytes that are no letters replaced.
+std::string quote(std::string_view word);
+
+}  // namespace sobb

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rays of an array fit in a packet together, and what the packet knows of them. Included once
+// for each Highway target.
+#if defined(SOBB_TRACE_PACKET_PACKET_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOBB_TRACE_PACKET_PACKET_SETUP_INL_H
+#undef SOBB_TRACE_PACKET_PACKET_SETUP_INL_H
+#else
+#define SOBB_TRACE_PACKET_PACKET_SETUP_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "trace/packet/packet_rays-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sobb {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// t in units of depth, rounded to the safe side. A denormal t was rounded by as much as it is
+// (scaled_ray.h), which is much where the direction is long.
+template <class V>
+HWY_INLINE V depth_before(RayFloats d, V t, V depth_of_one) {
+  const V least = hn::Max(hn::Sub(t, hn::Set(d, kSmallestFloat)), hn::Zero(d));
+  const V depth = hn::Mul(hn::Mul(least, depth_of_one), hn::Set(d, 1 - 0x1p-21F));
+  return hn::Max(hn::Sub(depth, hn::Set(d, 0x1p-100F)), hn::Zero(d));
+}
+template <class V>
+HWY_INLINE V depth_beyond(RayFloats d, V t, V depth_of_one) {
+  const V most = hn::Add(t, hn::Set(d, kSmallestFloat));
+  const V depth = hn::Mul(hn::Mul(most, depth_of_one), hn::Set(d, 1 + 0x1p-21F));
+  return hn::Add(depth, hn::Set(d, 0x1p-100F));
+}
+
+// From values by ray to values by place in the run, in any order, then lane: evens go before odds
+// until a lane has one value.
+template <int kCount>
+HWY_INLINE void spread_runs(const float* from, float* to) {
+  const RayFloats d;
+  constexpr int kStep = hn::MaxLanes(RayFloats());
+  constexpr int kHalf = kCount / 2;
+  alignas(64) float parts[kCount];
+  float* out = kHalf == kPacketLanes ? to : parts;
+  for (int i = 0; i < kHalf; i += kStep) {
+    const auto a = hn::Load(d, from + 2 * i);
+    const auto b = hn::Load(d, from + 2 * i + kStep);
+    hn::Store(hn::ConcatEven(d, b, a), d, out + i);
+    hn::Store(hn::ConcatOdd(d, b, a), d, out + kHalf + i);
+  }
+  if constexpr (kHalf > kPacketLanes) {
+    spread_runs<kHalf>(parts, to);
+    spread_runs<kHalf>(parts + kHalf, to + kHalf);
+  }
+}
+
+// Where rays may meet: where the first begins, or if the last begins elsewhere, where it ends.
+template <bool kOwnOrigins>
+HWY_INLINE PacketFocus find_focus(const sobb_ray& first, const sobb_ray& last) {
+  PacketFocus focus = {{first.origin[0], first.origin[1], first.origin[2]}, false};
+  if (!kOwnOrigins || std::equal(first.origin, first.origin + 3, last.origin)) return focus;
+  for (int k = 0; k < 3; ++k) {
+    focus.at[k] =
+        static_cast<float>(first.origin[k] + double{first.tmax} * double{first.direction[k]});
+  }
+  focus.backward = true;
+  return focus;
+}
+
+// Fills a packet.
+template <int kSize, bool kOwnOrigins>
+class PacketTaker {
+ public:
+  using Rays = PacketRays<kSize, kOwnOrigins>;
+
+  PacketTaker(const TraceScene& scene, Rays& packet) : scene_(scene), packet_(packet) {}
+
+  // Which rays are valid, share the packet's focus, axis and sign, and so belong to it.
+  HWY_INLINE uint64_t take(const sobb_ray* rays, uint64_t mask) {
+    uint64_t taken = 0;
+    for (size_t i = 0; i < kSize; i += kStep) taken |= load(rays, i) << i;
+    taken &= mask;
+    if (taken != ~uint64_t{0} >> (64 - kSize)) stand_in(taken, std::countr_zero(mask));
+    set_slopes();
+    set_test_rays();
+    if (kOwnOrigins && packet_.meeting.backward) set_backward();
+    set_lanes();
+    return taken;
+  }
+
+ private:
+  static constexpr size_t kStep = hn::MaxLanes(RayFloats());
+  using V = hn::Vec<RayFloats>;
+  using M = hn::Mask<RayFloats>;
+  using Doubles = hn::CappedTag<double, 4>;
+  using DoublesAsFloats = hn::Rebind<float, Doubles>;
+
+  // Loads as many rays as a vector has. Returns which of them fit.
+  HWY_INLINE uint64_t load(const sobb_ray* rays, size_t i) {
+    const RayFloats d;
+    const auto largest = hn::Set(d, FLT_MAX);
+    const RayVectors some(rays + i);
+    V size[3];
+    auto fits = hn::And(hn::Ge(some.tmin, hn::Zero(d)), hn::Eq(some.tmax, some.tmax));
+    for (int k = 0; k < 3; ++k) {
+      if (!kOwnOrigins || !packet_.meeting.backward) {
+        fits = hn::And(fits, begins_there(some.origin[k], k));
+      }
+      if (kOwnOrigins) hn::Store(some.origin[k], d, origin_[k] + i);
+      hn::Store(some.direction[k], d, direction_[k] + i);
+      size[k] = hn::Abs(some.direction[k]);
+      fits = hn::And(fits, hn::Le(size[k], largest));
+    }
+    hn::Store(some.tmin, d, packet_.tmin + i);
+    hn::Store(hn::Min(some.tmax, largest), d, packet_.limit + i);
+    fits = hn::And(fits, goes_along(size, i));
+    if (kOwnOrigins && packet_.meeting.backward) fits = hn::And(fits, ends_there(i));
+    return mask_bits(d, fits);
+  }
+
+  HWY_INLINE M begins_there(V origin, int k) const {
+    const RayFloats d;
+    const RayWords dw;
+    const auto expected = hn::Set(dw, std::bit_cast<uint32_t>(packet_.meeting.at[k]));
+    return hn::RebindMask(d, hn::Eq(hn::BitCast(dw, origin), expected));
+  }
+
+  // The axis as TriangleRay chooses it, and the packet's sign.
+  HWY_INLINE M goes_along(const V (&size)[3], size_t i) const {
+    const RayFloats d;
+    const int axis = packet_.frame.axis[2];
+    const auto along = hn::Mul(hn::Load(d, direction_[axis] + i), hn::Set(d, packet_.sign));
+    const auto forward =
+        packet_.meeting.backward ? hn::Lt(along, hn::Zero(d)) : hn::Gt(along, hn::Zero(d));
+    return hn::And(forward, LargestAxis(size).is(axis));
+  }
+
+  // Whether rays pierce the focus' plane near the focus and end there at the latest.
+  HWY_INLINE M ends_there(size_t i) {
+    const RayFloats d;
+    const int* axis = packet_.frame.axis;
+    const auto from_focus = [&](int k) HWY_ATTR {
+      return hn::Sub(hn::Load(d, origin_[axis[k]] + i), hn::Set(d, packet_.focus[k]));
+    };
+    const auto depth = hn::Mul(from_focus(2), hn::Set(d, packet_.sign));
+    const auto length = hn::Abs(hn::Load(d, direction_[axis[2]] + i));
+    const auto most = hn::Mul(length, hn::Set(d, packet_.tolerance()));
+    const auto limit = hn::Load(d, packet_.limit + i);
+    auto near = hn::And(hn::Ge(limit, hn::Zero(d)), hn::Le(hn::Sub(hn::Mul(limit, length), depth),
+                                                           hn::Set(d, packet_.tolerance())));
+    for (int k = 0; k < 2; ++k) {
+      const auto off =
+          hn::MulAdd(hn::Load(d, direction_[axis[k]] + i), depth, hn::Mul(from_focus(k), length));
+      near = hn::And(near, hn::Le(hn::Abs(off), most));
+    }
+    auto distance = hn::Zero(d);
+    for (int k = 0; k < 3; ++k) {
+      const auto o = hn::Sub(hn::Load(d, origin_[k] + i), hn::Set(d, scene_.centre[k]));
+      distance = hn::Add(distance, hn::Abs(o));
+    }
+    const auto of_taken = hn::IfThenElseZero(near, distance);
+    furthest_ = std::max(furthest_, hn::GetLane(hn::MaxOfLanes(d, of_taken)));
+    return near;
+  }
+
+  // Rays that are not traced stand in for their neighbours and bound nothing.
+  HWY_NOINLINE void stand_in(uint64_t taken, int first) {
+    auto last = static_cast<size_t>(first);
+    for (size_t i = 0; i < kSize; ++i) {
+      if ((taken >> i & 1) != 0) {
+        last = i;
+        continue;
+      }
+      for (int k = 0; k < 3; ++k) {
+        direction_[k][i] = direction_[k][last];
+        if (kOwnOrigins) origin_[k][i] = origin_[k][last];
+      }
+      packet_.tmin[i] = INFINITY;
+      packet_.limit[i] = -1;
+    }
+  }
+
+  HWY_INLINE void set_slopes() {
+    const RayFloats d;
+    const RayWords dw;
+    const int* axis = packet_.frame.axis;
+    V least[2] = {hn::Set(d, INFINITY), hn::Set(d, INFINITY)};
+    V most[2] = {hn::Set(d, -INFINITY), hn::Set(d, -INFINITY)};
+    for (size_t i = 0; i < kSize; i += kStep) {
+      const auto z = hn::Mul(hn::Load(d, direction_[axis[2]] + i), hn::Set(d, packet_.sign));
+      for (int k = 0; k < 2; ++k) {
+        const auto slope = hn::Div(hn::Load(d, direction_[axis[k]] + i), z);
+        hn::Store(slope, d, packet_.slope[k] + i);
+        least[k] = hn::Min(least[k], slope);
+        most[k] = hn::Max(most[k], slope);
+      }
+      const auto t1 = hn::Load(d, packet_.limit + i);
+      const auto t0 = hn::Load(d, packet_.tmin + i);
+      hn::Store(z, d, packet_.depth_of_one + i);
+      hn::Store(depth_before(d, t0, z), d, packet_.near + i);
+      hn::Store(hn::IfThenElse(hn::Lt(t1, hn::Zero(d)), t1, depth_beyond(d, t1, z)), d,
+                packet_.far + i);
+      hn::Store(hn::Set(dw, SOBB_MISS), dw, packet_.primitive + i);
+    }
+    for (int k = 0; k < 2; ++k) {
+      const float low = hn::GetLane(hn::MinOfLanes(d, least[k]));
+      const float high = hn::GetLane(hn::MaxOfLanes(d, most[k]));
+      const float centre = (low + high) * 0.5F;
+      packet_.centre[k] = centre;
+      packet_.spread[k] = std::max(high - centre, centre - low) * (1 + 0x1p-20F);
+      spread_runs<kSize>(packet_.slope[k], packet_.lane_slope[k][0]);
+    }
+  }
+
+  // What the deciding test reads, and slopes from the middle.
+  HWY_INLINE void set_test_rays() {
+    const Doubles d;
+    const DoublesAsFloats df;
+    const int* axis = packet_.frame.axis;
+    const auto sign = hn::Set(d, packet_.sign);
+    for (int k = 0; k < 2; ++k) {
+      const auto middle = hn::Set(d, packet_.centre[k] * packet_.sign);
+      for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
+        const auto z = hn::PromoteTo(d, hn::Load(df, direction_[axis[2]] + i));
+        const auto s = hn::Div(hn::PromoteTo(d, hn::Load(df, direction_[axis[k]] + i)), z);
+        hn::Store(s, d, packet_.shear[k] + i);
+        hn::Store(z, d, packet_.direction_z + i);
+        hn::Store(hn::DemoteTo(df, hn::Mul(hn::Sub(s, middle), sign)), df, packet_.slope[k] + i);
+      }
+    }
+    if constexpr (kOwnOrigins) {
+      for (int k = 0; k < 3; ++k) {
+        for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
+          const auto o = hn::PromoteTo(d, hn::Load(df, origin_[axis[k]] + i));
+          hn::Store(o, d, packet_.origin[k] + i);
+        }
+      }
+    }
+  }
+
+  // Depths of rays that end at the focus, and how far they are from it. In double, whose rounding
+  // 2^-48 of the largest depth covers, here and in the deciding test.
+  HWY_INLINE void set_backward() {
+    const Doubles d;
+    const DoublesAsFloats df;
+    const auto zero = hn::Zero(d);
+    auto furthest = zero;
+    auto off = zero;
+    for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
+      const auto from_focus = [&](int k) HWY_ATTR {
+        return hn::Sub(hn::Load(d, packet_.origin[k] + i), hn::Set(d, double{packet_.focus[k]}));
+      };
+      const auto z = from_focus(2);
+      for (int k = 0; k < 2; ++k) {
+        const auto pierces = hn::NegMulAdd(hn::Load(d, packet_.shear[k] + i), z, from_focus(k));
+        off = hn::Max(off, hn::Abs(pierces));
+      }
+      const auto depth = hn::Mul(z, hn::Set(d, double{packet_.sign}));
+      const auto size = hn::Abs(hn::Load(d, packet_.direction_z + i));
+      const auto t1 = hn::PromoteTo(d, hn::Load(df, packet_.limit + i));
+      const auto t0 = hn::PromoteTo(d, hn::Load(df, packet_.tmin + i));
+      const auto smallest = hn::Set(d, double{kSmallestFloat});  // as depth_before() has it
+      const auto begin = hn::Mul(hn::Max(hn::Sub(t0, smallest), zero), size);
+      const auto end = hn::Mul(hn::Add(t1, smallest), size);
+      const auto last = hn::Mul(end, hn::Set(d, 1 + 0x1p-23));  // a hit's t is rounded
+      off = hn::Max(off, hn::Sub(last, depth));
+      furthest = hn::Max(furthest, hn::Abs(depth));
+      const auto slack = hn::MulAdd(hn::Abs(depth), hn::Set(d, 0x1p-21), hn::Set(d, 0x1p-100));
+      const auto near = hn::NegMulAdd(end, hn::Set(d, 1 + 0x1p-21), hn::Sub(depth, slack));
+      const auto far = hn::NegMulAdd(begin, hn::Set(d, 1 - 0x1p-21), hn::Add(depth, slack));
+      const auto active = hn::Ge(t1, zero);
+      hn::Store(hn::DemoteTo(
+                    df, hn::IfThenElse(active, hn::Max(near, zero), hn::Set(d, double{INFINITY}))),
+                df, packet_.near + i);
+      hn::Store(hn::DemoteTo(df, hn::IfThenElse(active, hn::Max(far, zero), hn::Set(d, -1.0))), df,
+                packet_.far + i);
+    }
+    const double all =
+        hn::GetLane(hn::MaxOfLanes(d, off)) + 0x1p-48 * hn::GetLane(hn::MaxOfLanes(d, furthest));
+    packet_.widen(scene_, static_cast<float>(all) * (1 + 0x1p-20F), furthest_);
+  }
+
+  HWY_INLINE void set_lanes() {
+    constexpr int kRun = Rays::kRun;
+    float nearest = INFINITY;
+    for (int lane = 0; lane < kPacketLanes; ++lane) {
+      float least = INFINITY;
+      for (int i = 0; i < kRun; ++i) least = std::min(least, packet_.near[lane * kRun + i]);
+      packet_.lane_near[lane] = least;
+      nearest = std::min(nearest, least);
+    }
+    packet_.lane_near[kAllLanes] = nearest;
+    packet_.update_lanes((1U << (kSize / kStep)) - 1);
+  }
+
+  const TraceScene& scene_;
+  Rays& packet_;
+  float furthest_ = 0;  // of the origins, from the centre
+  alignas(64) float direction_[3][kSize];
+  alignas(64) float origin_[3][kOwnOrigins ? kSize : 1];
+};
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace sobb
+HWY_AFTER_NAMESPACE();
+
+#endif
