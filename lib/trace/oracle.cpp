@@ -3,6 +3,8 @@
 
 #include <atomic>
 
+#include "trace/ray/validity.h"
+#include "trace/triangles/closest_hit.h"
 #include "trace/triangles/triangle_test.h"
 
 namespace sobb {

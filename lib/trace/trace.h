@@ -20,25 +20,25 @@ struct TraceScene {
   const TriangleBlock* blocks;
 };
 
-// Prepared once a hierarchy; borrowed from its image.
+// Prepared once per hierarchy; borrowed from its image.
 struct Tracer : TraceScene {
   uint32_t width;
-  bool frame_only;  // all nodes are along the table's first three directions
+  bool frame_only;  // all nodes are along the frame, the table's first three directions
 
   explicit Tracer(const FileView& view);
 };
 
 inline constexpr int kPacketSize = 16;
 
-// Rays of a batch, at most: enough for long lists, few enough for a cache of the second level.
+// The most rays of a batch: enough for long lists, few enough for a cache of the second level.
 inline constexpr uint32_t kBatchRays = 2048;
 
-// Ways to trace an array of rays, each of which is the fastest for some.
-enum ArrayWay : uint8_t {
-  kBatchWay,   // up to kBatchRays together, which share nodes (stream-inl.h)
-  kWaveWay,    // each on a way of its own, in turns that hide what memory takes (wave-inl.h)
-  kPacketWay,  // 64 neighbours together (packet-inl.h)
-  kArrayWays,
+// The modes to trace an array of rays in, each of which is the fastest for some.
+enum TraceMode : uint8_t {
+  kBatchMode,   // up to kBatchRays together, which share nodes (batch/)
+  kWaveMode,    // each on a path of its own, in turns that hide memory's latency (wave/)
+  kPacketMode,  // 64 neighbours together (packet/)
+  kTraceModes,
 };
 
 // The kernels of one instruction set. Each returns how many rays were not valid. `counts` may be
@@ -48,11 +48,11 @@ struct TraceKernels {
   using Array = uint64_t (*)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
                              Result* results, void* scratch);
 
-  // By ArrayWay, for up to kBatchRays rays, with `scratch_bytes` of memory, aligned to 64, of which
-  // kPacketWay needs none.
+  // By TraceMode, for up to kBatchRays rays, with `scratch_bytes` of memory, aligned to 64, of
+  // which kPacketMode needs none.
   size_t scratch_bytes;
-  Array<sobb_hit> intersect_array[kArrayWays];
-  Array<uint8_t> occluded_array[kArrayWays];
+  Array<sobb_hit> intersect_array[kTraceModes];
+  Array<uint8_t> occluded_array[kTraceModes];
   // Ray by ray.
   uint64_t (*intersect)(const Tracer& tracer, const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                         sobb_count* counts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of rays, which are traced in whichever way is the fastest: by each, and as a call chooses
+// Arrays of rays, which are traced in whichever mode is the fastest: by each, and as a call chooses
 // among them, the same bits as ray by ray and the oracle, whatever the arrays' lengths, the rays'
 // octants, and the room that lists find; and with a host that has no memory for them.
 #include <gtest/gtest.h>
@@ -76,13 +76,13 @@ void expect_hits_by(const Intersect& intersect, const Occluded& occluded, size_t
   ASSERT_EQ(any[count], 77) << "written past the end";
 }
 
-// By each way alone.
-void expect_hits_of_ways(sobb_isa isa, const HierarchyHandle& hierarchy,
-                         const std::vector<sobb_ray>& rays, size_t count,
-                         const std::vector<sobb_hit>& expected) {
+// By each mode alone.
+void expect_hits_of_modes(sobb_isa isa, const HierarchyHandle& hierarchy,
+                          const std::vector<sobb_ray>& rays, size_t count,
+                          const std::vector<sobb_hit>& expected) {
   const TraceKernels& kernels = trace_kernels(isa);
-  for (size_t way = 0; way < kArrayWays; ++way) {
-    SCOPED_TRACE("way " + std::to_string(way));
+  for (size_t mode = 0; mode < kTraceModes; ++mode) {
+    SCOPED_TRACE("mode " + std::to_string(mode));
     const auto trace = [&](auto* results, auto kernel) {
       uint64_t invalid = 0;
       for (size_t first = 0; first < count; first += kBatchRays) {
@@ -93,8 +93,8 @@ void expect_hits_of_ways(sobb_isa isa, const HierarchyHandle& hierarchy,
       }
       return invalid;
     };
-    expect_hits_by([&](sobb_hit* hits) { return trace(hits, kernels.intersect_array[way]); },
-                   [&](uint8_t* any) { return trace(any, kernels.occluded_array[way]); }, count,
+    expect_hits_by([&](sobb_hit* hits) { return trace(hits, kernels.intersect_array[mode]); },
+                   [&](uint8_t* any) { return trace(any, kernels.occluded_array[mode]); }, count,
                    expected);
     if (testing::Test::HasFatalFailure()) return;
   }
@@ -129,7 +129,7 @@ void expect_hits(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& 
     sobb_isa resolved;
     if (sobb_resolve_isa(isa, &resolved) != SOBB_OK) continue;
     SCOPED_TRACE("isa " + std::to_string(isa));
-    if (options == nullptr) expect_hits_of_ways(isa, hierarchy, rays, count, expected);
+    if (options == nullptr) expect_hits_of_modes(isa, hierarchy, rays, count, expected);
     if (testing::Test::HasFatalFailure()) return;
     expect_hits_of_calls(isa, hierarchy, rays, count, expected,
                          options == nullptr ? trace_options() : *options);
@@ -161,7 +161,7 @@ std::vector<sobb_ray> rays_of_all_octants(uint32_t count, Random& random) {
   return rays;
 }
 
-// One ray in four is made invalid, in every way that there is, or lies so far away that nothing is
+// One ray in four is made invalid, in every possible manner, or lies so far away that nothing is
 // culled.
 void add_strangers(std::vector<sobb_ray>& rays, Random& random) {
   for (sobb_ray& ray : rays) {

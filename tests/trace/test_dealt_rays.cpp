@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays dealt out among ways: each gets its share, from all over the task, and results come back in
+// Rays dealt out among modes: each gets its share, from all over the task, and results come back in
 // the order of the rays.
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@ namespace sobb::test {
 namespace {
 
 using Dealt = DealtRays<uint8_t>;
-constexpr uint32_t kShares[][kArrayWays] = {{Dealt::kRuns, 0, 0}, {24, 4, 4},           {16, 14, 2},
-                                            {4, 0, 28},           {0, 0, Dealt::kRuns}, {1, 30, 1}};
+constexpr uint32_t kShares[][kTraceModes] = {
+    {Dealt::kRuns, 0, 0}, {24, 4, 4}, {16, 14, 2}, {4, 0, 28}, {0, 0, Dealt::kRuns}, {1, 30, 1}};
 
 // Rays that know their number.
 std::vector<sobb_ray> numbered() {
@@ -31,14 +31,14 @@ TEST(DealtRays, EachWayGetsItsShareOnceAndInOrder) {
   for (const auto& shares : kShares) {
     dealt->deal(rays.data(), shares);
     std::vector<int> seen(kBatchRays, 0);
-    for (size_t way = 0; way < kArrayWays; ++way) {
-      for (uint32_t i = 0; i < shares[way] * Dealt::kRun; ++i) {
-        const uint32_t at = number(dealt->rays(way)[i]);
+    for (size_t mode = 0; mode < kTraceModes; ++mode) {
+      for (uint32_t i = 0; i < shares[mode] * Dealt::kRun; ++i) {
+        const uint32_t at = number(dealt->rays(mode)[i]);
         ++seen[at];
         if (i % Dealt::kRun != 0) {
-          EXPECT_EQ(at, number(dealt->rays(way)[i - 1]) + 1) << "a run";
+          EXPECT_EQ(at, number(dealt->rays(mode)[i - 1]) + 1) << "a run";
         } else if (i != 0) {
-          EXPECT_GT(at, number(dealt->rays(way)[i - 1]));
+          EXPECT_GT(at, number(dealt->rays(mode)[i - 1]));
         }
       }
     }
@@ -46,19 +46,19 @@ TEST(DealtRays, EachWayGetsItsShareOnceAndInOrder) {
   }
 }
 
-// So that ways are compared over rays that cost alike: of any first part of the task each way has
+// So that modes are compared over rays that cost alike: of any first part of the task each mode has
 // its share, to a run or two.
 TEST(DealtRays, SharesComeFromAllOverTheTask) {
   const std::vector<sobb_ray> rays = numbered();
   const auto dealt = std::make_unique<Dealt>();
   for (const auto& shares : kShares) {
     dealt->deal(rays.data(), shares);
-    for (size_t way = 0; way < kArrayWays; ++way) {
-      for (uint32_t run = 0; run < shares[way]; ++run) {
-        const uint32_t at = number(dealt->rays(way)[size_t{run} * Dealt::kRun]) / Dealt::kRun;
-        const double due = (run + 0.5) * Dealt::kRuns / shares[way];
-        const double apart = std::max(2.0, 1.0 * Dealt::kRuns / shares[way]);
-        EXPECT_NEAR(at, due, apart) << "way " << way << " run " << run;
+    for (size_t mode = 0; mode < kTraceModes; ++mode) {
+      for (uint32_t run = 0; run < shares[mode]; ++run) {
+        const uint32_t at = number(dealt->rays(mode)[size_t{run} * Dealt::kRun]) / Dealt::kRun;
+        const double due = (run + 0.5) * Dealt::kRuns / shares[mode];
+        const double apart = std::max(2.0, 1.0 * Dealt::kRuns / shares[mode]);
+        EXPECT_NEAR(at, due, apart) << "mode " << mode << " run " << run;
       }
     }
   }
@@ -69,9 +69,9 @@ TEST(DealtRays, ResultsComeBackInTheOrderOfTheRays) {
   const auto dealt = std::make_unique<Dealt>();
   for (const auto& shares : kShares) {
     dealt->deal(rays.data(), shares);
-    for (size_t way = 0; way < kArrayWays; ++way) {
-      for (uint32_t i = 0; i < shares[way] * Dealt::kRun; ++i) {
-        dealt->results(way)[i] = static_cast<uint8_t>(number(dealt->rays(way)[i]) % 251);
+    for (size_t mode = 0; mode < kTraceModes; ++mode) {
+      for (uint32_t i = 0; i < shares[mode] * Dealt::kRun; ++i) {
+        dealt->results(mode)[i] = static_cast<uint8_t>(number(dealt->rays(mode)[i]) % 251);
       }
     }
     std::vector<uint8_t> results(kBatchRays);

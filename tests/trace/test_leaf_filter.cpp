@@ -98,9 +98,9 @@ void expect_batches_agree(sobb_isa isa, const HierarchyHandle& hierarchy,
   std::vector<sobb_hit> hits(rays.size());
   std::vector<uint8_t> occluded(rays.size());
   const Tracer& tracer = hierarchy->tracer;
-  kernels.intersect_array[kBatchWay](tracer, rays.data(), rays.size(), hits.data(), scratch.get());
-  kernels.occluded_array[kBatchWay](tracer, rays.data(), rays.size(), occluded.data(),
-                                    scratch.get());
+  kernels.intersect_array[kBatchMode](tracer, rays.data(), rays.size(), hits.data(), scratch.get());
+  kernels.occluded_array[kBatchMode](tracer, rays.data(), rays.size(), occluded.data(),
+                                     scratch.get());
   for (size_t i = 0; i < rays.size(); ++i) {
     ASSERT_TRUE(same(hits[i], expected[i]))
         << "ray " << i << " hits " << hits[i].primitive << " at " << hits[i].t << ", not "

@@ -136,28 +136,6 @@ TEST(Triangle, NeighboursLeaveNoGap) {
   }
 }
 
-TEST(ClosestHit, KeepsTheNearestAndOfEqualsTheLowest) {
-  const sobb_ray ray = {{0, 0, 0}, 1, {0, 0, 1}, 5};
-  ClosestHit best(ray);
-  EXPECT_EQ(best.result().primitive, SOBB_MISS);
-  EXPECT_EQ(best.result().t, kInfinity);
-  EXPECT_FALSE(best.offer({0.5F, 0, 0}, ray.tmin, 1)) << "before tmin";
-  EXPECT_FALSE(best.offer({5.5F, 0, 0}, ray.tmin, 1)) << "beyond tmax";
-  EXPECT_TRUE(best.offer({5, 0, 0}, ray.tmin, 9)) << "at tmax";
-  EXPECT_TRUE(best.offer({3, 0.1F, 0.2F}, ray.tmin, 7));
-  EXPECT_FALSE(best.offer({3, 0, 0}, ray.tmin, 8));
-  EXPECT_FALSE(best.offer({3, 0, 0}, ray.tmin, 7));
-  EXPECT_TRUE(best.offer({3, 0.3F, 0.4F}, ray.tmin, 2));
-  EXPECT_FALSE(best.offer({kInfinity, 0, 0}, ray.tmin, 0));
-  EXPECT_FALSE(best.offer({NAN, 0, 0}, ray.tmin, 0));
-  EXPECT_TRUE(best.offer({1, 0.5F, 0.5F}, ray.tmin, 3)) << "at tmin";
-  const sobb_hit hit = best.result();
-  EXPECT_EQ(hit.primitive, 3u);
-  EXPECT_EQ(hit.t, 1);
-  EXPECT_EQ(hit.u, 0.5F);
-  EXPECT_EQ(hit.geometry, 0u);
-}
-
 TEST(StackKey, LastKeyNeverCullsWhatIsAsNear) {
   constexpr uint64_t kSeed = 113;
   Random random(kSeed);

@@ -83,11 +83,11 @@ TEST(Wave, VisitsTheLargestLeaf) {
     std::vector<sobb_hit> hits(rays.size());
     std::vector<uint8_t> occluded(rays.size());
     const Scratch scratch(kernels.scratch_bytes);
-    EXPECT_EQ(kernels.intersect_array[kWaveWay](tracer, rays.data(), rays.size(), hits.data(),
-                                                scratch.get()),
+    EXPECT_EQ(kernels.intersect_array[kWaveMode](tracer, rays.data(), rays.size(), hits.data(),
+                                                 scratch.get()),
               0U);
-    EXPECT_EQ(kernels.occluded_array[kWaveWay](tracer, rays.data(), rays.size(), occluded.data(),
-                                               scratch.get()),
+    EXPECT_EQ(kernels.occluded_array[kWaveMode](tracer, rays.data(), rays.size(), occluded.data(),
+                                                scratch.get()),
               0U);
     for (size_t i = 0; i < rays.size(); ++i) {
       EXPECT_EQ(hits[i].primitive, i % 3 == 0 ? SOBB_MISS : kTriangles - 1) << i;

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a list before the triangles of a leaf: a conservative test in float, rays over the lanes,
-// in front of the deciding one (triangle_test.h), which takes one ray at a time. It tells rays that
-// surely miss a triangle, and where any hit will do, rays that surely hit it. Included once for
-// each Highway target.
+// A conservative test in float of a bundle of rays before one triangle, in front of the deciding
+// test (triangle_test.h), which takes one ray at a time. It tells rays that surely miss, and in
+// any-hit queries rays that surely hit.
 //
-// Of a triangle with corners v0, v1, v2, edges e1 = v1 - v0 and e2 = v2 - v0, and N = e1 x e2,
-// before the ray O + t D, let C = v0 - O and R = C x D. Then the edge functions are
+// Let the triangle have corners v0, v1, v2, edges e1 = v1 - v0 and e2 = v2 - v0, and N = e1 x e2,
+// and for the ray O + t D let C = v0 - O and R = C x D. Then the edge functions are
 //   w20 = R . e2,  w01 = -R . e1,  w12 = N . D - w20 - w01,   and t = N . C / N . D
 // (T. Moller, B. Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997).
 //
-// The deciding test has them of corners that moved by at most d = 2.9 u S, since it rounds their
-// projections; u = 2^-24, S no less than a corner's distance from the origin or from the scene's
+// The deciding test has them for corners that moved by at most d = 2.9 u S, since it rounds their
+// projections; u = 2^-24, S is no less than a corner's distance from the origin or from the scene's
 // centre. With E = |e1| + |e2| that changes edge functions by 2 d |R| + 3 d |D| E + 2 d^2 |D|.
 // Where it finds a hit, the hit is between the corners, which have one N . C, so that t N . D is
-// off by no more than d |N|, however narrow the triangle. The ray's e (ray_table-inl.h) is no less
-// than 16 u S. With it and the rounding here
+// off by no more than d |N|, however narrow the triangle. The ray's e (slab_coefficients-inl.h) is
+// no less than 16 u S. With it and the rounding here
 //   edge functions err by less than  |R| (e / 2 + 8 u E) + |D| (E (7/8 e + 3 u E) + e^2 / 8),
 //   N . D by                         2 u E^2 |D|,
 //   N . C by                         |N| e / 2 + u |C| (3 |N| + E^2),
 // and what underflows by less than 2^-120. Lengths but |N| are sums of magnitudes. Where e or the
 // ray's scale is not usual, so that something might overflow, nothing is sure.
-#if defined(SOBB_TRACE_BATCH_LEAF_FILTER_INL_H) == defined(HWY_TARGET_TOGGLE)
+#if defined(SOBB_TRACE_BATCH_LEAF_FILTER_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_BATCH_LEAF_FILTER_INL_H
 #undef SOBB_TRACE_BATCH_LEAF_FILTER_INL_H
 #else
@@ -32,9 +31,9 @@
 #include "base/simd/mask_bits-inl.h"
 #include "format/layout.h"
 #include "trace/batch/ray_bundle-inl.h"
+#include "trace/ray/query.h"
 #include "trace/ray/scaled_ray.h"
 #include "trace/trace.h"
-#include "trace/triangles/watertight_ray-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -55,16 +54,16 @@ HWY_INLINE void cross(const V (&a)[3], const V (&b)[3], V (&to)[3]) {
     to[k] = hn::MulSub(a[i], b[j], hn::Mul(a[j], b[i]));
   }
 }
-// The sum of magnitudes.
+// The sum of the components' magnitudes.
 template <class V>
 HWY_INLINE V size_of(const V (&a)[3]) {
   return hn::Add(hn::Add(hn::Abs(a[0]), hn::Abs(a[1])), hn::Abs(a[2]));
 }
 
-// What underflows in the sums of products below errs by less.
+// What underflows in the sums of products below changes them by less.
 inline constexpr float kUnderflow = 0x1p-120F;
 
-// The triangles of a block.
+// What the filter needs of the four triangles of a block.
 struct FilterBlock {
   alignas(16) float corner[3][4];  // v0, from the scene's centre
   alignas(16) float edge1[3][4];
@@ -99,7 +98,7 @@ struct FilterBlock {
   }
 };
 
-// As many rays of a list as a vector has lanes.
+// What the filter needs of a bundle.
 struct FilterRays {
   using V = hn::Vec<RayFloats>;
 
@@ -111,11 +110,11 @@ struct FilterRays {
   V speed;  // |D|
   V least;  // e^2 |D| / 8, and what underflows
 
-  HWY_INLINE explicit FilterRays(const RayGroup& group) : tmin(group.tmin), limit(group.limit) {
+  HWY_INLINE explicit FilterRays(const RayBundle& bundle) : tmin(bundle.tmin), limit(bundle.limit) {
     const RayFloats d;
     V scale;
-    group.load_rows(&SlabRay::origin, origin, scale);
-    group.load_rows(&SlabRay::direction, direction, error);
+    bundle.load(&SlabRay::origin, origin, scale);
+    bundle.load(&SlabRay::direction, direction, error);
     const auto usual = hn::And(hn::Le(error, hn::Set(d, 0x1p12F)), hn::Eq(scale, hn::Set(d, 1.0F)));
     error = hn::IfThenElse(usual, error, hn::Set(d, INFINITY));
     speed = size_of(direction);
@@ -124,13 +123,13 @@ struct FilterRays {
   }
 };
 
-// What is known of rays before a triangle, a bit each.
+// What is known of a bundle's rays before a triangle, one bit per ray.
 struct FilterVerdict {
-  uint32_t may_hit;  // surely-hitting ones among them
-  uint32_t hits;     // surely; not told where the closest hit is asked for
+  uint32_t may_hit;  // those that surely hit are among them
+  uint32_t hits;     // surely; not told in closest-hit queries
 };
 
-// One triangle of a block, the same for all rays.
+// One triangle of a block, the same in all lanes.
 struct FilterTriangle {
   using V = FilterRays::V;
   V corner[3];
@@ -155,7 +154,7 @@ struct FilterTriangle {
   }
 };
 
-// What is sure by the edge functions of a triangle, of which C and N . D are given.
+// What the edge functions of a triangle make sure, given its C and N . D.
 struct EdgeVerdict {
   hn::Mask<RayFloats> outside;
   hn::Mask<RayFloats> inside;
@@ -182,7 +181,7 @@ HWY_INLINE EdgeVerdict test_edges(const FilterRays& rays, const FilterTriangle& 
           hn::Or(hn::Gt(lowest, slack), hn::Lt(highest, minus_slack))};
 }
 
-// The same by its plane: t = depth / steepness, where the ray surely crosses it.
+// What its plane makes sure: t = depth / steepness, where the ray surely crosses it.
 struct PlaneVerdict {
   hn::Mask<RayFloats> crosses;
   hn::Mask<RayFloats> beyond;  // the ray's interval, or before the origin
@@ -225,8 +224,7 @@ HWY_INLINE FilterVerdict filter(const FilterRays& rays, const FilterBlock& block
   const EdgeVerdict edges = test_edges(rays, triangle, c, across);
   const PlaneVerdict plane = test_plane(rays, triangle, c, across);
   const auto missed = hn::Or(edges.outside, hn::And(plane.crosses, plane.beyond));
-  constexpr uint32_t kAll = (1U << hn::MaxLanes(RayFloats())) - 1;
-  FilterVerdict verdict = {mask_bits(d, missed) ^ kAll, 0};
+  FilterVerdict verdict = {mask_bits(d, missed) ^ all_lanes(d), 0};
   if constexpr (kQuery == Query::kAny) {
     verdict.hits = mask_bits(d, hn::And(hn::And(edges.inside, plane.crosses), plane.within));
   }

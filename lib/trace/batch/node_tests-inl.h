@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a stream against the children of a node: what is the same for all rays is made once a
-// visit. There are no tables: the coefficients of directions off the frame are made where they are
-// needed. Included once for each Highway target.
-#if defined(SOBB_TRACE_BATCH_NODE_TESTS_INL_H) == defined(HWY_TARGET_TOGGLE)
+// Rays of a batch against the children of a node. What is the same for all rays is made once per
+// visit. There are no tables of directions: the coefficients of those off the frame are made where
+// they are needed.
+//
+// Each kind of node has a test with
+//   kFewest             the rays from which on a list pays
+//   alone(ray, first)   the interval of one ray in as many children as a vector has lanes
+//   of(bundle)          what the rays of a bundle have to do with all children
+//   clip(of_bundle, child, near, far)   clips their intervals with a child's
+#if defined(SOBB_TRACE_BATCH_NODE_TESTS_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_BATCH_NODE_TESTS_INL_H
 #undef SOBB_TRACE_BATCH_NODE_TESTS_INL_H
 #else
@@ -11,9 +17,10 @@
 
 #include <hwy/highway.h>
 
-#include "trace/batch/batch_rays-inl.h"
 #include "trace/batch/ray_bundle-inl.h"
+#include "trace/nodes/frame_clip-inl.h"
 #include "trace/nodes/slab_clip-inl.h"
+#include "trace/trace.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -21,10 +28,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
-
-// As many lanes as a vector of children has, of entries.
-template <int W>
-using ChildEntries = hn::RebindToUnsigned<ChildFloats<W>>;
 
 // A ray's interval, and what it leaves of it in children.
 template <int W>
@@ -37,74 +40,69 @@ struct ChildIntervals {
       : near(hn::Set(ChildFloats<W>(), ray.tmin)), far(hn::Set(ChildFloats<W>(), ray.limit)) {}
 };
 
-// Each of these is a test of a node, by
-//   alone(ray, first)   the interval of one ray in as many children as a vector has lanes
-//   of(group)           what rays of a group have to do with all children
-//   clip(of_group, child, near, far)   clips their intervals with a child's
-//   kFewest             rays from which on a list pays; with bases of the children's own a group is
-//                       to be full, since of each child its coefficients are made
+// A bundle's coefficients along three directions that the children share.
+struct SharedCoefficients {
+  SlabCoefficients<RayBundle::V> along[3];
+};
 
-// Along the first three directions, for rays of one octant.
+// A node along the frame, for rays of one octant.
 template <int W>
-struct FrameNode {
-  static constexpr uint32_t kFewest = 4;
-  using V = RayGroup::V;
-  const float* near_plane[3];
-  const float* far_plane[3];
+class FrameNode {
+  using V = RayBundle::V;
+  using Planes = FramePlanes<W>;
 
-  HWY_INLINE FrameNode(const Node<W>& node, uint32_t octant) {
-    for (int j = 0; j < 3; ++j) {
-      near_plane[j] = node.slab[j][octant >> j & 1];
-      far_plane[j] = node.slab[j][1 - (octant >> j & 1)];
+ public:
+  static constexpr uint32_t kFewest = 4;
+
+  HWY_INLINE FrameNode(const Node<W>& node, uint32_t octant) : node_(node) {
+    for (uint32_t j = 0; j < 3; ++j) {
+      const uint32_t falls = octant >> j & 1;
+      near_[j] = node.slab[j][falls];
+      far_[j] = node.slab[j][1 - falls];
+      near_plane_[j] = Planes::near(j, falls);
     }
   }
 
   HWY_INLINE ChildIntervals<W> alone(const SlabRay& ray, size_t first) const {
-    const ChildFloats<W> d;
     ChildIntervals<W> of(ray);
-    for (int j = 0; j < 3; ++j) {
-      const auto r = hn::Set(d, ray.reciprocal[j]);
-      of.near = hn::Max(of.near,
-                        hn::MulAdd(hn::Load(d, near_plane[j] + first), r, hn::Set(d, ray.near[j])));
-      of.far =
-          hn::Min(of.far, hn::MulAdd(hn::Load(d, far_plane[j] + first), r, hn::Set(d, ray.far[j])));
-    }
+    clip_frame<W>(ray, near_plane_, node_, first, of.near, of.far);
     return of;
   }
 
-  struct Group {
-    SlabCoefficients<V> along[3];
-  };
-  HWY_INLINE Group of(const RayGroup& group) const {
+  HWY_INLINE SharedCoefficients of(const RayBundle& bundle) const {
     V far[3];
     V unused;
-    group.load_rows(&SlabRay::far, far, unused);
-    Group of;
-    for (int j = 0; j < 3; ++j) of.along[j] = {group.reciprocal[j], group.near[j], far[j]};
+    bundle.load(&SlabRay::far, far, unused);
+    SharedCoefficients of;
+    for (int j = 0; j < 3; ++j) of.along[j] = {bundle.reciprocal[j], bundle.near[j], far[j]};
     return of;
   }
 
-  HWY_INLINE void clip(const Group& of, uint32_t child, V& near, V& far) const {
+  HWY_INLINE void clip(const SharedCoefficients& of, uint32_t child, V& near, V& far) const {
     const RayFloats d;
     for (int j = 0; j < 3; ++j) {
-      const auto& c = of.along[j];
-      near = hn::Max(near, hn::MulAdd(hn::Set(d, near_plane[j][child]), c.reciprocal, c.near));
-      far = hn::Min(far, hn::MulAdd(hn::Set(d, far_plane[j][child]), c.reciprocal, c.far));
+      clip_known(of.along[j], hn::Set(d, near_[j][child]), hn::Set(d, far_[j][child]), near, far);
     }
   }
+
+ private:
+  const Node<W>& node_;
+  const float* near_[3];
+  const float* far_[3];
+  size_t near_plane_[3];
 };
 
-// Rays of a group as the coefficients of other directions are made of them.
-struct GroupRays {
-  using V = RayGroup::V;
+// The rays of a bundle, as the coefficients of directions off the frame are made from them.
+struct BundleRays {
+  using V = RayBundle::V;
   V origin[3];
   V direction[3];
   V error;
 
-  HWY_INLINE explicit GroupRays(const RayGroup& group) {
+  HWY_INLINE explicit BundleRays(const RayBundle& bundle) {
     V scale;
-    group.load_rows(&SlabRay::origin, origin, scale);
-    group.load_rows(&SlabRay::direction, direction, error);
+    bundle.load(&SlabRay::origin, origin, scale);
+    bundle.load(&SlabRay::direction, direction, error);
   }
 
   HWY_INLINE SlabCoefficients<V> along(float x, float y, float z) const {
@@ -114,89 +112,81 @@ struct GroupRays {
   }
 };
 
-// Clips with a slab of one child, whose near plane is the lower one for rays that rise.
-HWY_INLINE void clip_child(const SlabCoefficients<RayGroup::V>& c, float lower, float upper,
-                           RayGroup::V& near, RayGroup::V& far) {
+// Clips a bundle with a slab of one child.
+HWY_INLINE void clip_child(const SlabCoefficients<RayBundle::V>& c, float lower, float upper,
+                           RayBundle::V& near, RayBundle::V& far) {
   const RayFloats d;
-  const auto falls = hn::MaskFromVec(c.reciprocal);  // AVX2 and SSE4 read the sign bit alone
-  const auto low = hn::Set(d, lower);
-  const auto high = hn::Set(d, upper);
-  near = hn::Max(near, hn::MulAdd(hn::IfThenElse(falls, high, low), c.reciprocal, c.near));
-  far = hn::Min(far, hn::MulAdd(hn::IfThenElse(falls, low, high), c.reciprocal, c.far));
+  clip_planes(c, hn::Set(d, lower), hn::Set(d, upper), near, far);
 }
 
-// Along three directions that the children share.
+// A node along three directions that its children share.
 template <int W>
-struct SharedNode {
-  static constexpr uint32_t kFewest = 4;
-  using V = RayGroup::V;
-  const Node<W>& node;
-  alignas(16) float normal[3][4];  // by axis, then direction
+class SharedNode {
+  using V = RayBundle::V;
 
-  HWY_INLINE SharedNode(const TraceScene& scene, const Node<W>& node) : node(node) {
+ public:
+  static constexpr uint32_t kFewest = 4;
+
+  HWY_INLINE SharedNode(const TraceScene& scene, const Node<W>& node) : node_(node) {
     for (int j = 0; j < 3; ++j) {
       const uint32_t k = basis_direction(node.basis[0], j);
-      normal[0][j] = scene.directions.x[k];
-      normal[1][j] = scene.directions.y[k];
-      normal[2][j] = scene.directions.z[k];
+      normal_[0][j] = scene.directions.x[k];
+      normal_[1][j] = scene.directions.y[k];
+      normal_[2][j] = scene.directions.z[k];
     }
-    for (auto& axis : normal) axis[3] = 0;
+    for (auto& axis : normal_) axis[3] = 0;
   }
 
   HWY_INLINE ChildIntervals<W> alone(const SlabRay& ray, size_t first) const {
     const ChildFloats<W> d;
-    const hn::CappedTag<float, 4> d4;
-    const auto c = slab_coefficients(d4, hn::Load(d4, normal[0]), hn::Load(d4, normal[1]),
-                                     hn::Load(d4, normal[2]), hn::Set(d4, ray.origin[0]),
-                                     hn::Set(d4, ray.origin[1]), hn::Set(d4, ray.origin[2]),
-                                     hn::Set(d4, ray.direction[0]), hn::Set(d4, ray.direction[1]),
-                                     hn::Set(d4, ray.direction[2]), hn::Set(d4, ray.error));
     alignas(16) float reciprocal[4];
     alignas(16) float nears[4];
     alignas(16) float fars[4];
-    hn::Store(c.reciprocal, d4, reciprocal);
-    hn::Store(c.near, d4, nears);
-    hn::Store(c.far, d4, fars);
+    three_slab_coefficients(normal_[0], normal_[1], normal_[2], ray, reciprocal, nears, fars);
     ChildIntervals<W> of(ray);
     for (int j = 0; j < 3; ++j) {
       clip_slab<W>({hn::Set(d, reciprocal[j]), hn::Set(d, nears[j]), hn::Set(d, fars[j])},
-                   node.slab[j], first, of.near, of.far);
+                   node_.slab[j], first, of.near, of.far);
     }
     return of;
   }
 
-  struct Group {
-    SlabCoefficients<V> along[3];
-  };
-  HWY_INLINE Group of(const RayGroup& group) const {
-    const GroupRays rays(group);
-    Group of;
-    for (int j = 0; j < 3; ++j) of.along[j] = rays.along(normal[0][j], normal[1][j], normal[2][j]);
-    return of;
-  }
-
-  HWY_INLINE void clip(const Group& of, uint32_t child, V& near, V& far) const {
+  HWY_INLINE SharedCoefficients of(const RayBundle& bundle) const {
+    const BundleRays rays(bundle);
+    SharedCoefficients of;
     for (int j = 0; j < 3; ++j) {
-      clip_child(of.along[j], node.slab[j][0][child], node.slab[j][1][child], near, far);
+      of.along[j] = rays.along(normal_[0][j], normal_[1][j], normal_[2][j]);
+    }
+    return of;
+  }
+
+  HWY_INLINE void clip(const SharedCoefficients& of, uint32_t child, V& near, V& far) const {
+    for (int j = 0; j < 3; ++j) {
+      clip_child(of.along[j], node_.slab[j][0][child], node_.slab[j][1][child], near, far);
     }
   }
+
+ private:
+  const Node<W>& node_;
+  alignas(16) float normal_[3][4];  // by axis, then direction
 };
 
-// Along three directions of each child's own.
+// A node along three directions of each child's own. A bundle is to be full, since the coefficients
+// are made for each child.
 template <int W>
-struct OwnNode {
-  static constexpr uint32_t kFewest = 8;
-  using V = RayGroup::V;
-  const Node<W>& node;
-  alignas(64) float normal[3][3][W];  // by slab, then axis
+class OwnNode {
+  using V = RayBundle::V;
 
-  HWY_INLINE OwnNode(const TraceScene& scene, const Node<W>& node) : node(node) {
+ public:
+  static constexpr uint32_t kFewest = 8;
+
+  HWY_INLINE OwnNode(const TraceScene& scene, const Node<W>& node) : node_(node) {
     for (int i = 0; i < W; ++i) {
       for (int j = 0; j < 3; ++j) {
         const uint32_t k = basis_direction(node.basis[i], j);
-        normal[j][0][i] = scene.directions.x[k];
-        normal[j][1][i] = scene.directions.y[k];
-        normal[j][2][i] = scene.directions.z[k];
+        normal_[j][0][i] = scene.directions.x[k];
+        normal_[j][1][i] = scene.directions.y[k];
+        normal_[j][2][i] = scene.directions.z[k];
       }
     }
   }
@@ -205,24 +195,28 @@ struct OwnNode {
     const ChildFloats<W> d;
     ChildIntervals<W> of(ray);
     for (int j = 0; j < 3; ++j) {
-      const auto c = slab_coefficients(
-          d, hn::Load(d, normal[j][0] + first), hn::Load(d, normal[j][1] + first),
-          hn::Load(d, normal[j][2] + first), hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
-          hn::Set(d, ray.origin[2]), hn::Set(d, ray.direction[0]), hn::Set(d, ray.direction[1]),
-          hn::Set(d, ray.direction[2]), hn::Set(d, ray.error));
-      clip_slab<W>(c, node.slab[j], first, of.near, of.far);
+      const auto& normal = normal_[j];
+      const auto c =
+          slab_coefficients(d, hn::Load(d, normal[0] + first), hn::Load(d, normal[1] + first),
+                            hn::Load(d, normal[2] + first), ray);
+      clip_slab<W>(c, node_.slab[j], first, of.near, of.far);
     }
     return of;
   }
 
-  HWY_INLINE GroupRays of(const RayGroup& group) const { return GroupRays(group); }
+  HWY_INLINE BundleRays of(const RayBundle& bundle) const { return BundleRays(bundle); }
 
-  HWY_INLINE void clip(const GroupRays& rays, uint32_t child, V& near, V& far) const {
+  HWY_INLINE void clip(const BundleRays& rays, uint32_t child, V& near, V& far) const {
     for (int j = 0; j < 3; ++j) {
-      const auto c = rays.along(normal[j][0][child], normal[j][1][child], normal[j][2][child]);
-      clip_child(c, node.slab[j][0][child], node.slab[j][1][child], near, far);
+      const auto& normal = normal_[j];
+      clip_child(rays.along(normal[0][child], normal[1][child], normal[2][child]),
+                 node_.slab[j][0][child], node_.slab[j][1][child], near, far);
     }
   }
+
+ private:
+  const Node<W>& node_;
+  alignas(64) float normal_[3][3][W];  // by slab, then axis
 };
 
 }  // namespace

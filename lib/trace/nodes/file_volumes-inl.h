@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The volumes of the file's nodes: three slabs a child, along directions that a node's children
-// mostly share. Included once for each Highway target.
-#if defined(SOBB_TRACE_NODES_FILE_VOLUMES_INL_H) == defined(HWY_TARGET_TOGGLE)
+// The volumes of the file's nodes: three slabs per child, along directions that the children of a
+// node mostly share.
+#if defined(SOBB_TRACE_NODES_FILE_VOLUMES_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_NODES_FILE_VOLUMES_INL_H
 #undef SOBB_TRACE_NODES_FILE_VOLUMES_INL_H
 #else
@@ -14,6 +14,7 @@
 
 #include "format/layout.h"
 #include "trace/nodes/frame_ray-inl.h"
+#include "trace/nodes/node_volumes-inl.h"
 #include "trace/nodes/slab_clip-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +24,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// kFrame: all nodes are along the frame, so that nobody need ask.
+// kFrame: all nodes are along the frame, and no kernel need look.
 template <int W, bool kFrame>
 struct FileVolumes {
   static constexpr int kWidth = W;
@@ -46,7 +47,7 @@ struct FileVolumes {
                               V& far) {
     const bool shared = (node.meta[0] & kSharedBit) != 0;
     if (sobb::on_frame(node)) {
-      // Where in the table is known: what is there need not wait for the node.
+      // The places in the table are constants, so that its loads need not wait for the node.
       for (uint32_t k = 0; k < 3; ++k) clip_shared<W>(table, node.slab[k], k, first, near, far);
       return;
     }
@@ -61,6 +62,8 @@ struct FileVolumes {
     }
   }
 };
+
+static_assert(NodeVolumes<FileVolumes<4, true>> && NodeVolumes<FileVolumes<8, false>>);
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

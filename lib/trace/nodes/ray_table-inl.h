@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray's side of the slab test, for every direction of the table: a lookup instead of two dot
-// products a slab. Included once for each Highway target.
-//
-// The ray o + t d is between the planes n . p = pmin and n . p = pmax for t from the lesser to the
-// greater of (p - n.o) r, r = 1 / (n.d). Rounding is covered by widening the slab by
-//   e = 16 u (2 |o| + R),  u = 2^-24, R the scene's radius, |n| = 1:
-//   n.o   4 u |o|         (3 u for the dot product, u for o - c)
-//   n.d   3 u (|o| + R)   (t |d| <= |o| + R for a point of the scene; the sign may be wrong, the
-//                          widened interval still holds the point)
-//   the products and sums below   5 u |o| + 4 u R
-//   the triangle test's own rounding of vertices and t   3.5 u (|o| + R)  (triangle_test.h)
-// So near = p_near r + (-n.o r - e |r|) and far = p_far r + (-n.o r + e |r|): the careful test
-// costs what the careless one does. The idea is T. Ize's, "Robust BVH Ray Traversal" (2013).
-#if defined(SOBB_TRACE_NODES_RAY_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
+// The coefficients of one ray for every direction of the table: a lookup in it replaces two dot
+// products per slab.
+#if defined(SOBB_TRACE_NODES_RAY_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_NODES_RAY_TABLE_INL_H
 #undef SOBB_TRACE_NODES_RAY_TABLE_INL_H
 #else
@@ -21,7 +10,7 @@
 
 #include <hwy/highway.h>
 
-#include "trace/ray/scaled_ray.h"
+#include "trace/ray/slab_coefficients-inl.h"
 #include "trace/trace.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,31 +20,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// n . d is kept this far from zero, so that r is finite.
-constexpr float kSmallestCosine = 0x1p-60F;
-
-template <class V>
-struct SlabCoefficients {
-  V reciprocal;
-  V near;
-  V far;
-};
-
-// Directions, or rays, vary over the lanes.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE SlabCoefficients<V> slab_coefficients(D d, V nx, V ny, V nz, V ox, V oy, V oz, V dx,
-                                                 V dy, V dz, V error) {
-  const V no = hn::MulAdd(nz, oz, hn::MulAdd(ny, oy, hn::Mul(nx, ox)));
-  const V nd = hn::MulAdd(nz, dz, hn::MulAdd(ny, dy, hn::Mul(nx, dx)));
-  const V away = hn::CopySign(hn::Max(hn::Abs(nd), hn::Set(d, kSmallestCosine)), nd);
-  const V r = hn::Div(hn::Set(d, 1.0F), away);
-  const V slack = hn::Mul(error, hn::Abs(r));
-  return {r, hn::NegMulSub(no, r, slack), hn::NegMulAdd(no, r, slack)};
-}
-
-// For one ray, a ScaledRay or SlabRay: by direction, one vector of four each, so that a lookup is
-// one load.
 struct RayTable {
+  // One vector of four per direction, so that a lookup is one load.
   struct Entry {
     float reciprocal;
     float near;
@@ -64,16 +30,15 @@ struct RayTable {
   };
   alignas(64) Entry entry[kMaxDirections];
 
+  // `ray` is a ScaledRay or a SlabRay.
   template <class Ray>
   HWY_INLINE RayTable(const TraceScene& scene, const Ray& ray) {
     const DirectionTable& directions = scene.directions;
-    const hn::CappedTag<float, 8> d;
+    const hn::CappedTag<float, 8> d;  // the table of directions is padded to eight
     for (uint32_t k = 0; k < directions.count; k += static_cast<uint32_t>(hn::Lanes(d))) {
-      const auto c = slab_coefficients(
-          d, hn::Load(d, directions.x + k), hn::Load(d, directions.y + k),
-          hn::Load(d, directions.z + k), hn::Set(d, ray.origin[0]), hn::Set(d, ray.origin[1]),
-          hn::Set(d, ray.origin[2]), hn::Set(d, ray.direction[0]), hn::Set(d, ray.direction[1]),
-          hn::Set(d, ray.direction[2]), hn::Set(d, ray.error));
+      const auto c =
+          slab_coefficients(d, hn::Load(d, directions.x + k), hn::Load(d, directions.y + k),
+                            hn::Load(d, directions.z + k), ray);
       hn::StoreInterleaved4(c.reciprocal, c.near, c.far, hn::Zero(d), d, &entry[k].reciprocal);
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A traversal's stack entry in 64 bits, ordered by distance:
-//   bits 38-63  the near distance but for its 6 lowest bits (it is not negative)
-//   bits 32-37  a leaf's triangles; 0 of a node
+//   bits 38-63  the near distance without its 6 lowest bits (it is not negative)
+//   bits 32-37  a leaf's triangle count; 0 for a node
 //   bits 0-31   index of a node or of a leaf's first block
 // The distance is rounded down, so that culling by it stays conservative.
 #pragma once
@@ -17,14 +17,15 @@ using StackKey = uint64_t;
 
 inline constexpr uint32_t kKeyMetaMask = 0x3F;
 inline constexpr StackKey kRootKey = 0;
-// No leaf's, since 63 triangles need more blocks than the last. Not beyond any limit.
+// Nothing is left to visit. It equals no leaf's key, since 63 triangles need more blocks than the
+// last, and it is not beyond any limit.
 inline constexpr StackKey kNoKey = StackKey{kTriangleMask} << 32 | 0xFFFFFFFF;
 
 constexpr uint32_t key_triangles(StackKey key) { return key >> 32 & kTriangleMask; }
 constexpr bool key_is_leaf(StackKey key) { return key_triangles(key) != 0; }
 constexpr uint32_t key_index(StackKey key) { return static_cast<uint32_t>(key); }
 
-// Of a child at a distance, by its words in the node.
+// Packs a child's distance, meta word and reference into a key.
 inline StackKey make_key(float distance, uint32_t meta, uint32_t reference) {
   const uint32_t high =
       (std::bit_cast<uint32_t>(distance) & ~kKeyMetaMask) | (meta & kTriangleMask);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rays of an array fit in a packet together, and what the packet knows of them. Included once
-// for each Highway target.
-#if defined(SOBB_TRACE_PACKET_PACKET_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)
+// Makes a packet of the rays of an array that fit in it together.
+#if defined(SOBB_TRACE_PACKET_PACKET_SETUP_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_PACKET_PACKET_SETUP_INL_H
 #undef SOBB_TRACE_PACKET_PACKET_SETUP_INL_H
 #else
@@ -14,7 +13,10 @@
 #include <bit>
 #include <cmath>
 
+#include "base/simd/mask_bits-inl.h"
+#include "trace/packet/packet_depth-inl.h"
 #include "trace/packet/packet_rays-inl.h"
+#include "trace/ray/ray_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -23,43 +25,29 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// t in units of depth, rounded to the safe side. A denormal t was rounded by as much as it is
-// (scaled_ray.h), which is much where the direction is long.
-template <class V>
-HWY_INLINE V depth_before(RayFloats d, V t, V depth_of_one) {
-  const V least = hn::Max(hn::Sub(t, hn::Set(d, kSmallestFloat)), hn::Zero(d));
-  const V depth = hn::Mul(hn::Mul(least, depth_of_one), hn::Set(d, 1 - 0x1p-21F));
-  return hn::Max(hn::Sub(depth, hn::Set(d, 0x1p-100F)), hn::Zero(d));
-}
-template <class V>
-HWY_INLINE V depth_beyond(RayFloats d, V t, V depth_of_one) {
-  const V most = hn::Add(t, hn::Set(d, kSmallestFloat));
-  const V depth = hn::Mul(hn::Mul(most, depth_of_one), hn::Set(d, 1 + 0x1p-21F));
-  return hn::Add(depth, hn::Set(d, 0x1p-100F));
-}
-
-// From values by ray to values by place in the run, in any order, then lane: evens go before odds
-// until a lane has one value.
+// Turns values by ray into values by place in the beam, in any order, then beam: evens go before
+// odds until a beam has one value.
 template <int kCount>
-HWY_INLINE void spread_runs(const float* from, float* to) {
-  const RayFloats d;
-  constexpr int kStep = hn::MaxLanes(RayFloats());
+HWY_INLINE void spread_beams(const float* from, float* to) {
+  const BeamFloats d;
+  constexpr int kStep = hn::MaxLanes(BeamFloats());
   constexpr int kHalf = kCount / 2;
   alignas(64) float parts[kCount];
-  float* out = kHalf == kPacketLanes ? to : parts;
+  float* out = kHalf == kBeams ? to : parts;
   for (int i = 0; i < kHalf; i += kStep) {
     const auto a = hn::Load(d, from + 2 * i);
     const auto b = hn::Load(d, from + 2 * i + kStep);
     hn::Store(hn::ConcatEven(d, b, a), d, out + i);
     hn::Store(hn::ConcatOdd(d, b, a), d, out + kHalf + i);
   }
-  if constexpr (kHalf > kPacketLanes) {
-    spread_runs<kHalf>(parts, to);
-    spread_runs<kHalf>(parts + kHalf, to + kHalf);
+  if constexpr (kHalf > kBeams) {
+    spread_beams<kHalf>(parts, to);
+    spread_beams<kHalf>(parts + kHalf, to + kHalf);
   }
 }
 
-// Where rays may meet: where the first begins, or if the last begins elsewhere, where it ends.
+// Returns where rays may meet: where the first begins, or if the last begins elsewhere, where the
+// first ends.
 template <bool kOwnOrigins>
 HWY_INLINE PacketFocus find_focus(const sobb_ray& first, const sobb_ray& last) {
   PacketFocus focus = {{first.origin[0], first.origin[1], first.origin[2]}, false};
@@ -72,15 +60,15 @@ HWY_INLINE PacketFocus find_focus(const sobb_ray& first, const sobb_ray& last) {
   return focus;
 }
 
-// Fills a packet.
 template <int kSize, bool kOwnOrigins>
-class PacketTaker {
+class PacketSetup {
  public:
   using Rays = PacketRays<kSize, kOwnOrigins>;
 
-  PacketTaker(const TraceScene& scene, Rays& packet) : scene_(scene), packet_(packet) {}
+  PacketSetup(const TraceScene& scene, Rays& packet) : scene_(scene), packet_(packet) {}
 
-  // Which rays are valid, share the packet's focus, axis and sign, and so belong to it.
+  // Fills the packet with the rays of the mask that are valid and share its focus, axis and sign.
+  // Returns which they are.
   HWY_INLINE uint64_t take(const sobb_ray* rays, uint64_t mask) {
     uint64_t taken = 0;
     for (size_t i = 0; i < kSize; i += kStep) taken |= load(rays, i) << i;
@@ -88,64 +76,64 @@ class PacketTaker {
     if (taken != ~uint64_t{0} >> (64 - kSize)) stand_in(taken, std::countr_zero(mask));
     set_slopes();
     set_test_rays();
-    if (kOwnOrigins && packet_.meeting.backward) set_backward();
-    set_lanes();
+    if (kOwnOrigins && packet_.focus.backward) set_backward();
+    set_beams();
     return taken;
   }
 
  private:
-  static constexpr size_t kStep = hn::MaxLanes(RayFloats());
+  static constexpr size_t kStep = kRayLanes;
   using V = hn::Vec<RayFloats>;
   using M = hn::Mask<RayFloats>;
   using Doubles = hn::CappedTag<double, 4>;
   using DoublesAsFloats = hn::Rebind<float, Doubles>;
 
-  // Loads as many rays as a vector has. Returns which of them fit.
+  // Loads as many rays as a vector has lanes. Returns which of them fit. (That a direction is not
+  // zero goes_along() tells, and that an origin is finite begins_there() or ends_there().)
   HWY_INLINE uint64_t load(const sobb_ray* rays, size_t i) {
     const RayFloats d;
-    const auto largest = hn::Set(d, FLT_MAX);
     const RayVectors some(rays + i);
     V size[3];
-    auto fits = hn::And(hn::Ge(some.tmin, hn::Zero(d)), hn::Eq(some.tmax, some.tmax));
+    auto fits = some.has_valid_interval();
     for (int k = 0; k < 3; ++k) {
-      if (!kOwnOrigins || !packet_.meeting.backward) {
+      if (!kOwnOrigins || !packet_.focus.backward) {
         fits = hn::And(fits, begins_there(some.origin[k], k));
       }
       if (kOwnOrigins) hn::Store(some.origin[k], d, origin_[k] + i);
       hn::Store(some.direction[k], d, direction_[k] + i);
       size[k] = hn::Abs(some.direction[k]);
-      fits = hn::And(fits, hn::Le(size[k], largest));
     }
+    fits = hn::And(fits, are_finite(size));
     hn::Store(some.tmin, d, packet_.tmin + i);
-    hn::Store(hn::Min(some.tmax, largest), d, packet_.limit + i);
+    hn::Store(hn::Min(some.tmax, hn::Set(d, FLT_MAX)), d, packet_.limit + i);
     fits = hn::And(fits, goes_along(size, i));
-    if (kOwnOrigins && packet_.meeting.backward) fits = hn::And(fits, ends_there(i));
+    if (kOwnOrigins && packet_.focus.backward) fits = hn::And(fits, ends_there(i));
     return mask_bits(d, fits);
   }
 
   HWY_INLINE M begins_there(V origin, int k) const {
     const RayFloats d;
     const RayWords dw;
-    const auto expected = hn::Set(dw, std::bit_cast<uint32_t>(packet_.meeting.at[k]));
+    const auto expected = hn::Set(dw, std::bit_cast<uint32_t>(packet_.focus.at[k]));
     return hn::RebindMask(d, hn::Eq(hn::BitCast(dw, origin), expected));
   }
 
-  // The axis as TriangleRay chooses it, and the packet's sign.
+  // Whether the largest axis, as TriangleRay chooses it, is the packet's, with its sign.
   HWY_INLINE M goes_along(const V (&size)[3], size_t i) const {
     const RayFloats d;
-    const int axis = packet_.frame.axis[2];
+    const int axis = packet_.projection.axis[2];
     const auto along = hn::Mul(hn::Load(d, direction_[axis] + i), hn::Set(d, packet_.sign));
     const auto forward =
-        packet_.meeting.backward ? hn::Lt(along, hn::Zero(d)) : hn::Gt(along, hn::Zero(d));
+        packet_.focus.backward ? hn::Lt(along, hn::Zero(d)) : hn::Gt(along, hn::Zero(d));
     return hn::And(forward, LargestAxis(size).is(axis));
   }
 
   // Whether rays pierce the focus' plane near the focus and end there at the latest.
   HWY_INLINE M ends_there(size_t i) {
     const RayFloats d;
-    const int* axis = packet_.frame.axis;
+    const int* axis = packet_.projection.axis;
     const auto from_focus = [&](int k) HWY_ATTR {
-      return hn::Sub(hn::Load(d, origin_[axis[k]] + i), hn::Set(d, packet_.focus[k]));
+      return hn::Sub(hn::Load(d, origin_[axis[k]] + i), hn::Set(d, packet_.permuted_focus[k]));
     };
     const auto depth = hn::Mul(from_focus(2), hn::Set(d, packet_.sign));
     const auto length = hn::Abs(hn::Load(d, direction_[axis[2]] + i));
@@ -168,7 +156,7 @@ class PacketTaker {
     return near;
   }
 
-  // Rays that are not traced stand in for their neighbours and bound nothing.
+  // Replaces rays that are not traced by copies of their neighbours that bound nothing.
   HWY_NOINLINE void stand_in(uint64_t taken, int first) {
     auto last = static_cast<size_t>(first);
     for (size_t i = 0; i < kSize; ++i) {
@@ -188,7 +176,7 @@ class PacketTaker {
   HWY_INLINE void set_slopes() {
     const RayFloats d;
     const RayWords dw;
-    const int* axis = packet_.frame.axis;
+    const int* axis = packet_.projection.axis;
     V least[2] = {hn::Set(d, INFINITY), hn::Set(d, INFINITY)};
     V most[2] = {hn::Set(d, -INFINITY), hn::Set(d, -INFINITY)};
     for (size_t i = 0; i < kSize; i += kStep) {
@@ -213,15 +201,15 @@ class PacketTaker {
       const float centre = (low + high) * 0.5F;
       packet_.centre[k] = centre;
       packet_.spread[k] = std::max(high - centre, centre - low) * (1 + 0x1p-20F);
-      spread_runs<kSize>(packet_.slope[k], packet_.lane_slope[k][0]);
+      spread_beams<kSize>(packet_.slope[k], packet_.beam_slope[k][0]);
     }
   }
 
-  // What the deciding test reads, and slopes from the middle.
+  // Sets what the deciding test reads, and slopes from the middle.
   HWY_INLINE void set_test_rays() {
     const Doubles d;
     const DoublesAsFloats df;
-    const int* axis = packet_.frame.axis;
+    const int* axis = packet_.projection.axis;
     const auto sign = hn::Set(d, packet_.sign);
     for (int k = 0; k < 2; ++k) {
       const auto middle = hn::Set(d, packet_.centre[k] * packet_.sign);
@@ -243,8 +231,8 @@ class PacketTaker {
     }
   }
 
-  // Depths of rays that end at the focus, and how far they are from it. In double, whose rounding
-  // 2^-48 of the largest depth covers, here and in the deciding test.
+  // Sets the depths of rays that end at the focus, and how far they are from it. It works in
+  // double, whose rounding, here and in the deciding test, 2^-48 of the largest depth covers.
   HWY_INLINE void set_backward() {
     const Doubles d;
     const DoublesAsFloats df;
@@ -253,7 +241,8 @@ class PacketTaker {
     auto off = zero;
     for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
       const auto from_focus = [&](int k) HWY_ATTR {
-        return hn::Sub(hn::Load(d, packet_.origin[k] + i), hn::Set(d, double{packet_.focus[k]}));
+        return hn::Sub(hn::Load(d, packet_.origin[k] + i),
+                       hn::Set(d, double{packet_.permuted_focus[k]}));
       };
       const auto z = from_focus(2);
       for (int k = 0; k < 2; ++k) {
@@ -285,17 +274,18 @@ class PacketTaker {
     packet_.widen(scene_, static_cast<float>(all) * (1 + 0x1p-20F), furthest_);
   }
 
-  HWY_INLINE void set_lanes() {
-    constexpr int kRun = Rays::kRun;
+  HWY_INLINE void set_beams() {
+    constexpr int kBeamRays = Rays::kBeamRays;
     float nearest = INFINITY;
-    for (int lane = 0; lane < kPacketLanes; ++lane) {
+    for (int beam = 0; beam < kBeams; ++beam) {
       float least = INFINITY;
-      for (int i = 0; i < kRun; ++i) least = std::min(least, packet_.near[lane * kRun + i]);
-      packet_.lane_near[lane] = least;
+      for (int i = 0; i < kBeamRays; ++i)
+        least = std::min(least, packet_.near[beam * kBeamRays + i]);
+      packet_.beam_near[beam] = least;
       nearest = std::min(nearest, least);
     }
-    packet_.lane_near[kAllLanes] = nearest;
-    packet_.update_lanes((1U << (kSize / kStep)) - 1);
+    packet_.beam_near[kWholePacket] = nearest;
+    packet_.update_beams((1U << (kSize / kStep)) - 1);
   }
 
   const TraceScene& scene_;

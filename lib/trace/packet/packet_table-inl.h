@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A packet's side of the slab tests: for a direction of the table, what bounds the depths at which
-// any ray of a lane may be within a slab. Made when a direction is first met. Included once for
-// each Highway target.
+// any ray of a beam may be within a slab. An entry is made when its direction is first met.
 //
-// With s = n . d over the rays of a lane in [s0, s1], 0 < s0, and q = p - n . o widened as
-// ray_table-inl.h does, depths within the slab lie from q_lower / s1 to q_upper / s0: where the
-// first is negative it bounds nothing, since depths are not; where the second is, the slab is
+// With s = n . d over the rays of a beam in [s0, s1], 0 < s0, and q = p - n . o widened as
+// slab_coefficients-inl.h does, depths within the slab lie from q_lower / s1 to q_upper / s0: where
+// the first is negative it bounds nothing, since depths are not; where the second is, the slab is
 // behind all rays. For s1 < 0 likewise with the planes exchanged. Where s has both signs in the
 // packet the slab bounds nothing.
-#if defined(SOBB_TRACE_PACKET_PACKET_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#if defined(SOBB_TRACE_PACKET_PACKET_TABLE_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_PACKET_PACKET_TABLE_INL_H
 #undef SOBB_TRACE_PACKET_PACKET_TABLE_INL_H
 #else
@@ -18,8 +17,8 @@
 #include <hwy/highway.h>
 
 #include "format/layout.h"
-#include "trace/nodes/ray_table-inl.h"
 #include "trace/packet/packet_rays-inl.h"
+#include "trace/ray/slab_coefficients-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -29,18 +28,18 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct PacketTable {
-  // By lane, then of the whole packet: depth = plane * scale + offset.
+  // By beam, then of the whole packet: depth = plane * scale + offset.
   struct Entry {
-    alignas(64) float near_scale[kPacketLanes + 8];
-    alignas(64) float near_offset[kPacketLanes + 8];
-    alignas(64) float far_scale[kPacketLanes + 8];
-    alignas(64) float far_offset[kPacketLanes + 8];
+    alignas(64) float near_scale[kBeams + 1];
+    alignas(64) float near_offset[kBeams + 1];
+    alignas(64) float far_scale[kBeams + 1];
+    alignas(64) float far_offset[kBeams + 1];
   };
   Entry entry[kMaxDirections];
   uint8_t falls[kMaxDirections];  // 1: rays go down along the direction, the upper plane is nearer
   uint32_t made = 0;              // bit k: entry k
 
-  // Makes the entries of a basis.
+  // Makes the entries of a basis that are not there yet.
   template <class Rays>
   HWY_INLINE void require(const TraceScene& scene, const Rays& rays, uint32_t basis) {
     const uint32_t needed = 1U << basis_direction(basis, 0) | 1U << basis_direction(basis, 1) |
@@ -58,25 +57,25 @@ struct PacketTable {
     const float n[3] = {table.x[k], table.y[k], table.z[k]};
     const float* o = rays.centred.origin;
     const float no = n[0] * o[0] + n[1] * o[1] + n[2] * o[2];
-    const RayFloats d;
-    const auto nx = hn::Set(d, n[rays.frame.axis[0]]);
-    const auto ny = hn::Set(d, n[rays.frame.axis[1]]);
-    const auto nz = hn::Set(d, n[rays.frame.axis[2]] * rays.sign);
-    alignas(64) float least[kPacketLanes];
-    alignas(64) float most[kPacketLanes];
+    const BeamFloats d;
+    const auto nx = hn::Set(d, n[rays.projection.axis[0]]);
+    const auto ny = hn::Set(d, n[rays.projection.axis[1]]);
+    const auto nz = hn::Set(d, n[rays.projection.axis[2]] * rays.sign);
+    alignas(64) float least[kBeams];
+    alignas(64) float most[kBeams];
     auto all_least = hn::Set(d, INFINITY);
     auto all_most = hn::Set(d, -INFINITY);
-    for (size_t lane = 0; lane < kPacketLanes; lane += hn::Lanes(d)) {
+    for (size_t beam = 0; beam < kBeams; beam += hn::Lanes(d)) {
       auto low = hn::Set(d, INFINITY);
       auto high = hn::Set(d, -INFINITY);
-      for (int i = 0; i < Rays::kRun; ++i) {
-        const auto s = hn::MulAdd(nx, hn::Load(d, rays.lane_slope[0][i] + lane),
-                                  hn::MulAdd(ny, hn::Load(d, rays.lane_slope[1][i] + lane), nz));
+      for (int i = 0; i < Rays::kBeamRays; ++i) {
+        const auto s = hn::MulAdd(nx, hn::Load(d, rays.beam_slope[0][i] + beam),
+                                  hn::MulAdd(ny, hn::Load(d, rays.beam_slope[1][i] + beam), nz));
         low = hn::Min(low, s);
         high = hn::Max(high, s);
       }
-      hn::Store(low, d, least + lane);
-      hn::Store(high, d, most + lane);
+      hn::Store(low, d, least + beam);
+      hn::Store(high, d, most + beam);
       all_least = hn::Min(all_least, low);
       all_most = hn::Max(all_most, high);
     }
@@ -87,9 +86,9 @@ struct PacketTable {
     falls[k] = falling;
     Entry& e = entry[k];
     if (!rises && !falling) {
-      for (int lane = 0; lane <= kAllLanes; ++lane) {
-        e.near_scale[lane] = e.far_scale[lane] = e.near_offset[lane] = 0;
-        e.far_offset[lane] = INFINITY;
+      for (int beam = 0; beam <= kWholePacket; ++beam) {
+        e.near_scale[beam] = e.far_scale[beam] = e.near_offset[beam] = 0;
+        e.far_offset[beam] = INFINITY;
       }
       return;
     }
@@ -106,11 +105,11 @@ struct PacketTable {
                 e.near_offset + at);
       hn::Store(hn::Sub(hn::Mul(slack, hn::Abs(far)), hn::Mul(offset, far)), dv, e.far_offset + at);
     };
-    for (size_t lane = 0; lane < kPacketLanes; lane += hn::Lanes(d)) {
-      fill(d, lane, hn::Load(d, least + lane), hn::Load(d, most + lane));
+    for (size_t beam = 0; beam < kBeams; beam += hn::Lanes(d)) {
+      fill(d, beam, hn::Load(d, least + beam), hn::Load(d, most + beam));
     }
     const hn::CappedTag<float, 1> one;
-    fill(one, kAllLanes, hn::Set(one, s0), hn::Set(one, s1));
+    fill(one, kWholePacket, hn::Set(one, s0), hn::Set(one, s1));
   }
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The triangles of a leaf against a packet: a conservative float filter with rays in the lanes,
-// then the deciding test in double, four rays at a time. Included once for each Highway target.
+// then the deciding test in double, half a vector of rays at a time.
 //
-// Vertices are projected along the packet's central ray. For a ray whose slopes differ by
-// (a, b) from its, the edge function of vertices i, j is linear in them, for the focus is shared:
+// Vertices are projected along the packet's central ray. For a ray whose slopes differ by (a, b)
+// from the central ray's, the edge function of vertices i, j is linear in them, for the focus is
+// shared:
 //   x_i y_j - y_i x_j + a (y_i z_j - z_i y_j) + b (z_i x_j - x_i z_j)
 // so a ray costs two multiply-adds an edge. With u = 2^-24, z the largest depth of a vertex, m its
 // largest projected coordinate, c the largest central slope, a and b at most r, and g = m + r z,
@@ -13,7 +14,8 @@
 // together less than u g (16 c z + 48 g) + 64 u^2 z^2. What underflows errs by less than 2^-120.
 // A ray that is off the focus by (p, q), neither more than the deviation v, has all x less by p,
 // all y by q, so the edge function is off by p (y_i - y_j) + q (x_j - x_i): at most 4 v g.
-#if defined(SOBB_TRACE_PACKET_PACKET_TRIANGLES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#if defined(SOBB_TRACE_PACKET_PACKET_TRIANGLES_INL_H) == \
+    defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_PACKET_PACKET_TRIANGLES_INL_H
 #undef SOBB_TRACE_PACKET_PACKET_TRIANGLES_INL_H
 #else
@@ -22,9 +24,13 @@
 
 #include <hwy/highway.h>
 
+#include "base/simd/mask_bits-inl.h"
 #include "format/layout.h"
-#include "trace/packet/packet_setup-inl.h"
-#include "trace/single/traversal-inl.h"
+#include "trace/packet/packet_depth-inl.h"
+#include "trace/packet/packet_rays-inl.h"
+#include "trace/ray/query.h"
+#include "trace/triangles/acceptance_lanes-inl.h"
+#include "trace/triangles/watertight_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -33,11 +39,11 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Half a vector of rays, as their deciding test takes them.
+// Half a vector of rays, as the deciding test takes them.
 using HalfFloats = hn::Half<RayFloats>;
 using HalfDoubles = hn::Rebind<double, HalfFloats>;
 
-// Four triangles before a packet.
+// The four triangles of a block before a packet.
 struct PacketBlock {
   // By edge, then triangle: the edge function's constant and factors.
   alignas(16) float constant[3][4];
@@ -47,15 +53,15 @@ struct PacketBlock {
   alignas(16) float near[4];  // depths of the vertices, widened
   alignas(16) float far[4];
 
-  // Returns the triangles that a ray of the packet may hit.
+  // Projects the triangles. Returns those that a ray of the packet may hit, one bit each.
   template <class Rays>
   HWY_INLINE uint32_t make(const Rays& rays, const TriangleBlock& block) {
     const hn::CappedTag<float, 4> d;
     using V = hn::Vec<decltype(d)>;
-    const int* axis = rays.frame.axis;
-    const V ox = hn::Set(d, rays.focus[0]);
-    const V oy = hn::Set(d, rays.focus[1]);
-    const V oz = hn::Set(d, rays.focus[2]);
+    const int* axis = rays.projection.axis;
+    const V ox = hn::Set(d, rays.permuted_focus[0]);
+    const V oy = hn::Set(d, rays.permuted_focus[1]);
+    const V oz = hn::Set(d, rays.permuted_focus[2]);
     const V cx = hn::Set(d, rays.centre[0]);
     const V cy = hn::Set(d, rays.centre[1]);
     const V sign = hn::Set(d, rays.sign);
@@ -101,12 +107,12 @@ struct PacketBlock {
     hn::Store(hn::Sub(front, reach), d, near);
     hn::Store(hn::Add(back, reach), d, far);
     const auto outside = hn::And(hn::Lt(least_high, hn::Neg(e)), hn::Gt(most_low, e));
-    const auto beyond = hn::Gt(hn::Load(d, near), hn::Set(d, rays.lane_far[kAllLanes]));
-    const auto before = hn::Lt(hn::Load(d, far), hn::Set(d, rays.lane_near[kAllLanes]));
+    const auto beyond = hn::Gt(hn::Load(d, near), hn::Set(d, rays.beam_far[kWholePacket]));
+    const auto before = hn::Lt(hn::Load(d, far), hn::Set(d, rays.beam_near[kWholePacket]));
     return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & 0xF;
   }
 
-  // Which of as many rays as a vector has may hit a triangle.
+  // Returns which of as many rays as a vector has lanes, from `first` on, may hit a triangle.
   template <class Rays>
   HWY_INLINE uint32_t filter(const Rays& rays, uint32_t triangle, size_t first) const {
     const RayFloats d;
@@ -124,19 +130,17 @@ struct PacketBlock {
                                  hn::Gt(hn::Max(hn::Max(w[0], w[1]), w[2]), e));
     const auto beyond = hn::Gt(hn::Set(d, near[triangle]), hn::Load(d, rays.far + first));
     const auto before = hn::Lt(hn::Set(d, far[triangle]), hn::Load(d, rays.near + first));
-    const uint32_t all = (1U << hn::Lanes(d)) - 1;
-    return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & all;
+    return ~mask_bits(d, hn::Or(outside, hn::Or(beyond, before))) & all_lanes(d);
   }
 };
 
-// intersect_triangle() for rays from `first` on, as many as a vector of doubles has, with the same
-// operations in the same order. Where it finds no hit t is negative; u and v are w1 / sum, w2 /
-// sum.
+// The deciding test of rays from `first` on, as many as a vector of doubles has lanes. Where it
+// finds no hit t is negative; u and v are w1 / sum and w2 / sum.
 struct PacketHits {
   hn::Vec<HalfFloats> t;
   hn::Vec<HalfDoubles> w1, w2, sum;
 };
-// `away` is each vertex, from the origin where that is shared.
+// `away` are the vertices, from the origin where all rays share it.
 template <int kSize, bool kOwnOrigins>
 HWY_INLINE PacketHits intersect(const PacketRays<kSize, kOwnOrigins>& rays,
                                 const double (&away)[3][3], size_t first) {
@@ -155,33 +159,25 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize, kOwnOrigins>& rays,
   };
   for (int i = 0; i < 3; ++i) {
     pz[i] = relative(2, i);
-    px[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(0, i), hn::Mul(sx, pz[i]))));
-    py[i] = hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(relative(1, i), hn::Mul(sy, pz[i]))));
+    px[i] = project(d, relative(0, i), sx, pz[i]);
+    py[i] = project(d, relative(1, i), sy, pz[i]);
   }
-  const V w0 = hn::Sub(hn::Mul(px[2], py[1]), hn::Mul(py[2], px[1]));
-  const V w1 = hn::Sub(hn::Mul(px[0], py[2]), hn::Mul(py[0], px[2]));
-  const V w2 = hn::Sub(hn::Mul(px[1], py[0]), hn::Mul(py[1], px[0]));
-  const V zero = hn::Zero(d);
-  const V sum = hn::Add(hn::Add(w0, w1), w2);
-  const V t = hn::Div(hn::Add(hn::Add(hn::Mul(w0, pz[0]), hn::Mul(w1, pz[1])), hn::Mul(w2, pz[2])),
-                      hn::Mul(sum, hn::Load(d, rays.direction_z + first)));
-  const auto inside = hn::Or(hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero),
-                             hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
-  const auto hit = hn::And(hn::And(inside, hn::Ne(sum, zero)), hn::Ge(t, zero));
-  return {hn::Add(hn::DemoteTo(df, hn::IfThenElse(hit, t, hn::Set(d, -1.0))), hn::Zero(df)), w1, w2,
-          sum};
+  const TriangleWeights<HalfDoubles> of(d, px, py);
+  const TriangleDistances<HalfDoubles> at(d, of, pz, hn::Load(d, rays.direction_z + first));
+  const V t = hn::IfThenElse(at.hit, at.t, hn::Set(d, -1.0));
+  return {hn::Add(hn::DemoteTo(df, t), hn::Zero(df)), of.w[1], of.w[2], at.sum};
 }
 
-// Offers a triangle to rays from `first` on, as ClosestHit::offer() does. Returns whether one took
-// it.
+// Offers a triangle to rays from `first` on, as ClosestHit::offer() does; `candidates` are those
+// that the filter let pass. Returns whether one took it.
 template <Query kQuery, int kSize, bool kOwnOrigins>
 HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock& block,
                       uint32_t triangle, size_t first, uint32_t candidates) {
   double away[3][3];
   for (int k = 0; k < 3; ++k) {
     for (int i = 0; i < 3; ++i) {
-      const double from = kOwnOrigins ? 0 : rays.frame.origin[k];
-      away[k][i] = block.vertex[i][rays.frame.axis[k]][triangle] - from;
+      const double from = kOwnOrigins ? 0 : rays.projection.origin[k];
+      away[k][i] = block.vertex[i][rays.projection.axis[k]][triangle] - from;
     }
   }
   const HalfFloats half;
@@ -196,12 +192,10 @@ HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock&
   const RayFloats d;
   const RayWords dw;
   const auto t = hn::Combine(d, high.t, low.t);
-  const auto limit = hn::Load(d, rays.limit + first);
   const auto best = hn::Load(dw, rays.primitive + first);
-  const auto index = hn::Set(dw, block.primitive[triangle]);
-  const auto before =
-      hn::Or(hn::Lt(t, limit), hn::And(hn::Eq(t, limit), hn::RebindMask(d, hn::Lt(index, best))));
-  const auto taken = hn::And(before, hn::Ge(t, hn::Load(d, rays.tmin + first)));
+  const auto taken =
+      accepting_lanes(d, t, block.primitive[triangle], hn::Load(d, rays.tmin + first),
+                      hn::Load(d, rays.limit + first), best);
   if (hn::AllFalse(d, taken)) return false;
   const auto store = [&](auto value, float* at) HWY_ATTR {
     hn::Store(hn::IfThenElse(taken, value, hn::Load(d, at)), d, at);
@@ -209,6 +203,7 @@ HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock&
   const auto quotient = [&](auto a, auto b) HWY_ATTR { return hn::DemoteTo(half, hn::Div(a, b)); };
   store(hn::Combine(d, quotient(high.w1, high.sum), quotient(low.w1, low.sum)), rays.u + first);
   store(hn::Combine(d, quotient(high.w2, high.sum), quotient(low.w2, low.sum)), rays.v + first);
+  const auto index = hn::Set(dw, block.primitive[triangle]);
   hn::Store(hn::IfThenElse(hn::RebindMask(dw, taken), index, best), dw, rays.primitive + first);
   if (kQuery == Query::kAny) {
     const auto done = hn::Set(d, -1.0F);
@@ -221,17 +216,17 @@ HWY_INLINE bool offer(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock&
   return true;
 }
 
-// A leaf before the rays of some lanes.
+// Tests the triangles of a leaf against the rays of some beams, one bit each.
 template <Query kQuery, int kSize, bool kOwnOrigins>
 HWY_INLINE void test_leaf(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBlock* block,
-                          uint32_t triangles, uint32_t lanes) {
-  constexpr size_t kStep = hn::MaxLanes(RayFloats());
-  constexpr size_t kRun = kSize / kPacketLanes;
+                          uint32_t triangles, uint32_t beams) {
+  constexpr size_t kStep = kRayLanes;
+  constexpr size_t kBeamRays = kSize / kBeams;
   uint32_t changed = 0;
   for (uint32_t left = 0; left < triangles; left += 4, ++block) {
     PacketBlock prepared;
     uint32_t met = prepared.make(rays, *block);
-    met &= triangles - left >= 4 ? 0xF : (1U << (triangles - left)) - 1;
+    met &= triangles - left >= 4 ? 0xF : low_bits(triangles - left);
     for (; met != 0; met &= met - 1) {
       const auto triangle = static_cast<uint32_t>(std::countr_zero(met));
       const auto test = [&](size_t first) HWY_ATTR {
@@ -240,19 +235,19 @@ HWY_INLINE void test_leaf(PacketRays<kSize, kOwnOrigins>& rays, const TriangleBl
         changed |= static_cast<uint32_t>(offer<kQuery>(rays, *block, triangle, first, candidates))
                    << (first / kStep);
       };
-      if constexpr (kRun < kStep) {  // a vector holds rays of some lanes
+      if constexpr (kBeamRays < kStep) {  // a vector holds rays of several beams
         for (size_t first = 0; first < kSize; first += kStep) {
-          if ((lanes >> (first / kRun) & ((1U << (kStep / kRun)) - 1)) != 0) test(first);
+          if ((beams >> (first / kBeamRays) & low_bits(kStep / kBeamRays)) != 0) test(first);
         }
       } else {
-        for (uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-          const size_t begin = static_cast<size_t>(std::countr_zero(rest)) * kRun;
-          for (size_t first = begin; first < begin + kRun; first += kStep) test(first);
+        for (uint32_t rest = beams; rest != 0; rest &= rest - 1) {
+          const size_t begin = static_cast<size_t>(std::countr_zero(rest)) * kBeamRays;
+          for (size_t first = begin; first < begin + kBeamRays; first += kStep) test(first);
         }
       }
     }
   }
-  if (changed != 0) rays.update_lanes(changed);
+  if (changed != 0) rays.update_beams(changed);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ struct ScaledRay {
   float tmin;   // in scaled units
   float scale;  // scaled t = t * scale, a power of two
   float reach;  // at least the distance from the origin to any vertex
-  float error;  // e, how far slabs are widened for this ray (ray_table-inl.h)
+  float error;  // e, how far slabs are widened for this ray (slab_coefficients-inl.h)
 
   // Directions whose largest component is between the inverse of it and it are left as they are.
   static constexpr float kLongest = 0x1p20F;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What node tests read of a ray where there are many: the coefficients of the table's first three
-// directions (ray_table-inl.h), and what those of the others are made of.
+// What the node tests of many rays read of each: the coefficients of the table's first three
+// directions (slab_coefficients-inl.h), and what those of other directions are made from.
 #pragma once
 
 namespace sobb {

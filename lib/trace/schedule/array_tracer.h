@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tasks of one array of rays, each traced in what the call has found to be the fastest way.
+// Traces the tasks of one array of rays, each in the mode that the call has found to be the
+// fastest.
 #pragma once
 
 #include <algorithm>
@@ -14,21 +15,21 @@
 
 namespace sobb {
 
-// The kernels of a query, and the way that is likely to be the fastest.
+// The kernels of a query, and the mode that is likely to be the fastest.
 template <class Result>
 struct ArrayKernels {
   uint64_t (*single)(const Tracer&, const sobb_ray*, uint64_t, Result*, sobb_count*);
-  const TraceKernels::Array<Result>* by_way;
-  ArrayWay likely;
+  const TraceKernels::Array<Result>* by_mode;
+  TraceMode likely;
 };
 
-// Rays that look for the closest hit mostly go ways of their own; those that look for any end
-// where they began, or at a light.
+// Rays that look for their closest hit mostly diverge; occlusion rays begin or end near each other,
+// at a surface or a light.
 inline ArrayKernels<sobb_hit> array_kernels(const TraceKernels& kernels, const sobb_hit*) {
-  return {kernels.intersect, kernels.intersect_array, kWaveWay};
+  return {kernels.intersect, kernels.intersect_array, kWaveMode};
 }
 inline ArrayKernels<uint8_t> array_kernels(const TraceKernels& kernels, const uint8_t*) {
-  return {kernels.occluded, kernels.occluded_array, kBatchWay};
+  return {kernels.occluded, kernels.occluded_array, kBatchMode};
 }
 
 // Borrows all that it is given. Thread-safe.
@@ -42,7 +43,7 @@ class ArrayTracer {
         kernels_(array_kernels(kernels, static_cast<const Result*>(nullptr))),
         coherent_(coherent),
         pool_(pool),
-        fastest_(coherent ? kAlike : kAll, coherent ? kPacketWay : kernels_.likely) {}
+        fastest_(coherent ? kAlike : kAll, coherent ? kPacketMode : kernels_.likely) {}
 
   static size_t scratch_bytes(const TraceKernels& kernels) {
     return kernel_bytes(kernels) + sizeof(Dealt);
@@ -54,7 +55,7 @@ class ArrayTracer {
       const ScratchPool::Lease lease(pool_);
       if (lease.get() != nullptr) return together(task, rays, count, results, lease.get());
     }
-    if (coherent_) return kernels_.by_way[kPacketWay](tracer_, rays, count, results, nullptr);
+    if (coherent_) return kernels_.by_mode[kPacketMode](tracer_, rays, count, results, nullptr);
     return kernels_.single(tracer_, rays, count, results, nullptr);
   }
 
@@ -64,20 +65,21 @@ class ArrayTracer {
   }
 
  private:
-  using Fastest = FastestWay<kArrayWays>;
+  using Fastest = FastestMode<kTraceModes>;
   using Dealt = DealtRays<Result>;
 
   static size_t kernel_bytes(const TraceKernels& kernels) {
     return (kernels.scratch_bytes + 63) / 64 * 64;
   }
 
-  static constexpr uint32_t kAll = (1U << kArrayWays) - 1;
-  static constexpr uint32_t kAlike = kAll & ~(1U << kWaveWay);  // rays that are alike share nodes
+  static constexpr uint32_t kAll = (1U << kTraceModes) - 1;
+  static constexpr uint32_t kAlike = kAll & ~(1U << kWaveMode);  // rays that are alike share nodes
   // Fewer rays are not worth the memory that tracing them together takes.
   static constexpr uint64_t kFewestTogether = 256;
-  // Runs of a task that tell what a way takes. Batches are the faster the larger they are.
-  static uint32_t compared(size_t way, bool behind) {
-    if (way == kBatchWay) return behind ? Dealt::kRuns / 8 : Dealt::kRuns / 2;
+  // How many runs of a task measure a mode that is not the best. Batches are the faster the larger
+  // they are.
+  static uint32_t compared(size_t mode, bool behind) {
+    if (mode == kBatchMode) return behind ? Dealt::kRuns / 8 : Dealt::kRuns / 2;
     return behind ? Dealt::kRuns / 16 : Dealt::kRuns / 8;
   }
 
@@ -85,31 +87,32 @@ class ArrayTracer {
                     void* scratch) {
     const typename Fastest::Turn turn = fastest_.turn(task);
     if (turn.compares && count == kBatchRays) return compare(task, turn, rays, results, scratch);
-    return kernels_.by_way[turn.best](tracer_, rays, count, results, scratch);
+    return kernels_.by_mode[turn.best](tracer_, rays, count, results, scratch);
   }
 
   uint64_t compare(uint64_t task, const typename Fastest::Turn& turn, const sobb_ray* rays,
                    Result* results, void* scratch) {
-    uint32_t runs[kArrayWays] = {};
+    uint32_t runs[kTraceModes] = {};
     runs[turn.best] = Dealt::kRuns;
-    for (size_t way = 0; way < kArrayWays; ++way) {
-      if (way == turn.best || !fastest_.has(way)) continue;
-      runs[way] = compared(way, (turn.behind >> way & 1) != 0);
-      runs[turn.best] -= runs[way];
+    for (size_t mode = 0; mode < kTraceModes; ++mode) {
+      if (mode == turn.best || !fastest_.has(mode)) continue;
+      runs[mode] = compared(mode, (turn.behind >> mode & 1) != 0);
+      runs[turn.best] -= runs[mode];
     }
     auto& dealt = *new (static_cast<uint8_t*>(scratch) + kernel_bytes_) Dealt;
     dealt.deal(rays, runs);
-    float time[kArrayWays] = {};
+    float time[kTraceModes] = {};
     uint64_t invalid = 0;
-    for (size_t i = 0; i < kArrayWays; ++i) {
-      // Each has its turn to be the first, which finds the caches cold.
-      const size_t way = (task + i) % kArrayWays;
-      if (runs[way] == 0) continue;
-      const uint64_t share = uint64_t{runs[way]} * Dealt::kRun;
+    for (size_t i = 0; i < kTraceModes; ++i) {
+      // Each mode has its turn to be the first, which finds the caches cold.
+      const size_t mode = (task + i) % kTraceModes;
+      if (runs[mode] == 0) continue;
+      const uint64_t share = uint64_t{runs[mode]} * Dealt::kRun;
       const auto start = std::chrono::steady_clock::now();
-      invalid += kernels_.by_way[way](tracer_, dealt.rays(way), share, dealt.results(way), scratch);
+      invalid +=
+          kernels_.by_mode[mode](tracer_, dealt.rays(mode), share, dealt.results(mode), scratch);
       const std::chrono::duration<float> took = std::chrono::steady_clock::now() - start;
-      time[way] = took.count() / static_cast<float>(share);
+      time[mode] = took.count() / static_cast<float>(share);
     }
     dealt.collect(results);
     fastest_.took(time);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array of rays, one at a time. Included once for each Highway target.
-#if defined(SOBB_TRACE_SINGLE_TRACE_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)
+// An array of rays, traced one at a time.
+#if defined(SOBB_TRACE_SINGLE_TRACE_RAYS_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_SINGLE_TRACE_RAYS_INL_H
 #undef SOBB_TRACE_SINGLE_TRACE_RAYS_INL_H
 #else
@@ -9,6 +9,7 @@
 
 #include <hwy/highway.h>
 
+#include "trace/ray/validity.h"
 #include "trace/single/traversal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,14 +17,7 @@ namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The result of a query as its caller stores it.
-inline void store(const ClosestHit& best, sobb_hit& hit) { hit = best.result(); }
-inline void store(const ClosestHit& best, uint8_t& occluded) {
-  occluded = best.primitive == SOBB_MISS ? SOBB_FREE : SOBB_OCCLUDED;
-}
-inline void store_invalid(sobb_hit& hit) { hit = ClosestHit::missed(SOBB_INVALID); }
-inline void store_invalid(uint8_t& occluded) { occluded = SOBB_OCCLUDED_INVALID; }
-
+// `counts` may be null. Returns how many rays were not valid.
 template <class Volumes, Query kQuery, class Result>
 uint64_t trace_rays(const TraceScene& scene, const sobb_ray* rays, uint64_t count, Result* results,
                     sobb_count* counts) {
@@ -37,7 +31,7 @@ uint64_t trace_rays(const TraceScene& scene, const sobb_ray* rays, uint64_t coun
     }
     ClosestHit best(rays[i]);
     if (counts != nullptr) {
-      trace_ray<Volumes, kQuery>(scene, rays[i], best, Counter{counts[i]});
+      trace_ray<Volumes, kQuery>(scene, rays[i], best, WorkCounter{counts[i]});
     } else {
       trace_ray<Volumes, kQuery>(scene, rays[i], best, NoCounter{});
     }

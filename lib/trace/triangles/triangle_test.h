@@ -9,7 +9,7 @@
 //     rounding the value, of exact arithmetic on the projected vertices. So the barycentric
 //     weights, and t, are those of a triangle whose vertices moved by at most half an ulp of their
 //     distance from the ray, even for one seen edge-on: the hit point never leaves the volumes
-//     that bound the triangle by more than their offsets allow (ray_table-inl.h).
+//     that bound the triangle by more than their offsets allow (slab_coefficients-inl.h).
 #pragma once
 
 #include <hwy/base.h>
@@ -20,54 +20,9 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sobb/sobb.h"
+#include "trace/ray/triangle_ray.h"
 
 namespace sobb {
-
-// Whether a ray is one that sobb.h promises a result for.
-inline bool is_valid(const sobb_ray& ray) {
-  float largest = 0;
-  float nothing = 0;  // times what is not finite: not a number
-  for (int k = 0; k < 3; ++k) {
-    nothing += 0 * ray.origin[k] + 0 * ray.direction[k];
-    largest = std::max(largest, std::fabs(ray.direction[k]));
-  }
-  return nothing == 0 && largest > 0 && ray.tmin >= 0 && ray.tmax == ray.tmax;
-}
-
-// A ray as the test wants it: axes permuted so that the direction is largest along z.
-struct TriangleRay {
-  int axis[3];       // which axes are x, y, z
-  double origin[3];  // permuted
-  double shear_x;    // d_x / d_z
-  double shear_y;
-  double direction_z;
-
-  static constexpr int kNext[3] = {1, 2, 0};
-
-  HWY_INLINE explicit TriangleRay(const sobb_ray& ray) {
-    const float x = std::fabs(ray.direction[0]);
-    const float y = std::fabs(ray.direction[1]);
-    const float z = std::fabs(ray.direction[2]);
-    // Looked up, since rays' directions are not to be predicted.
-    static constexpr int kLargest[8] = {2, 2, 2, 0, 1, 2, 1, 0};
-    axis[2] = kLargest[(x >= y ? 1 : 0) | (x >= z ? 2 : 0) | (y >= z ? 4 : 0)];
-    axis[0] = kNext[axis[2]];
-    axis[1] = kNext[axis[0]];
-    for (int k = 0; k < 3; ++k) origin[k] = ray.origin[axis[k]];
-    direction_z = ray.direction[axis[2]];
-    shear_x = ray.direction[axis[0]] / direction_z;
-    shear_y = ray.direction[axis[1]] / direction_z;
-  }
-
-  // Of what was found so already: the last axis, and the rest along the permuted ones.
-  HWY_INLINE TriangleRay(int largest, const double (&from)[3], const double (&shear)[2], double dz)
-      : axis{kNext[largest], kNext[kNext[largest]], largest},
-        origin{from[0], from[1], from[2]},
-        shear_x(shear[0]),
-        shear_y(shear[1]),
-        direction_z(dz) {}
-};
 
 struct TriangleHit {
   float t, u, v;
@@ -111,51 +66,5 @@ inline bool intersect_triangle(const TriangleRay& ray, const float x[3], const f
   hit.v = static_cast<float>(w2 / sum);
   return true;
 }
-
-// The closest hit so far. Equal t goes to the lowest primitive; t is finite in every hit.
-struct ClosestHit {
-  float limit;  // t of the best so far, at first the ray's tmax
-  float u = 0;
-  float v = 0;
-  uint32_t primitive = SOBB_MISS;
-
-  explicit ClosestHit(const sobb_ray& ray) : limit(std::min(ray.tmax, FLT_MAX)) {}
-
-  // Takes a hit if it is in the interval and before the best. Returns whether it was taken.
-  bool offer(const TriangleHit& hit, float tmin, uint32_t index) {
-    if (!takes(hit.t, tmin, index)) return false;
-    *this = ClosestHit(hit, index);
-    return true;
-  }
-
-  // The same of a hit as intersect_triangle() has it before it divides by the sum of the weights.
-  bool offer(double t, double w1, double w2, double sum, float tmin, uint32_t index) {
-    const float rounded = round_hit_t(t);
-    if (!takes(rounded, tmin, index)) return false;
-    *this =
-        ClosestHit({rounded, static_cast<float>(w1 / sum), static_cast<float>(w2 / sum)}, index);
-    return true;
-  }
-
-  sobb_hit result() const {
-    // Selected by bits, not branched to: whether a ray hits is not to be predicted.
-    const uint32_t miss = primitive == SOBB_MISS ? ~0U : 0;
-    const uint32_t t =
-        (std::bit_cast<uint32_t>(limit) & ~miss) | (std::bit_cast<uint32_t>(INFINITY) & miss);
-    static_assert(SOBB_MISS == ~0U);
-    return {std::bit_cast<float>(t), u, v, primitive, miss, SOBB_MISS};
-  }
-
-  // The result of a ray that hit nothing (SOBB_MISS) or is not valid (SOBB_INVALID).
-  static sobb_hit missed(uint32_t why) { return {INFINITY, 0, 0, why, SOBB_MISS, SOBB_MISS}; }
-
- private:
-  bool takes(float t, float tmin, uint32_t index) const {
-    return t >= tmin && (t < limit || (t == limit && index < primitive));
-  }
-
-  ClosestHit(const TriangleHit& hit, uint32_t index)
-      : limit(hit.t), u(hit.u), v(hit.v), primitive(index) {}
-};
 
 }  // namespace sobb

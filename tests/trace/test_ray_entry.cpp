@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lists of rays are made of: an entry's order and bounds, the table that packs lanes.
+// An entry of a list of rays: its order and its bounds.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -7,7 +7,6 @@
 #include <limits>
 #include <string>
 
-#include "base/simd/pack_table.h"
 #include "support/soups.h"
 #include "trace/batch/ray_entry.h"
 #include "trace/trace.h"
@@ -48,18 +47,6 @@ TEST(RayEntry, DistanceIsRoundedDownAndOrders) {
   }
   EXPECT_EQ(entry_distance(entry_of(0, 5)), 0);
   EXPECT_EQ(entry_distance(entry_of(kInfinity, 5)), kInfinity);
-}
-
-TEST(PackTable, KeepsLanesInOrder) {
-  for (uint32_t mask = 0; mask < 256; ++mask) {
-    int kept = 0;
-    for (uint8_t lane = 0; lane < 8; ++lane) {
-      if ((mask >> lane & 1) == 0) continue;
-      EXPECT_EQ(kPackTable.lane[mask][kept++], lane) << mask;
-    }
-    EXPECT_EQ(kept, std::popcount(mask));
-    for (; kept < 8; ++kept) EXPECT_EQ(kPackTable.lane[mask][kept], 0) << mask;
-  }
 }
 
 }  // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which lanes of a vector a mask keeps, lowest first.
+// The lanes of up to eight that each mask keeps, for compaction.
 #pragma once
 
 #include <cstdint>
 
 namespace sobb {
 
-struct PackTable {
-  alignas(64) uint8_t lane[256][8];  // by mask; zero behind those kept
+struct CompactTable {
+  alignas(64) uint8_t lane[256][8] = {};  // by mask; lowest lane first, zero behind those kept
 
-  constexpr PackTable() : lane{} {
+  constexpr CompactTable() {
     for (uint32_t mask = 0; mask < 256; ++mask) {
       uint32_t kept = 0;
       for (uint8_t i = 0; i < 8; ++i) {
@@ -19,6 +19,6 @@ struct PackTable {
   }
 };
 
-inline constexpr PackTable kPackTable;
+inline constexpr CompactTable kCompactTable;
 
 }  // namespace sobb

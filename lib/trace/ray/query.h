@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kinds of query.
+#pragma once
+
+namespace sobb {
+
+// Whether a ray looks for its closest hit, or for any (an occlusion query).
+enum class Query { kClosest, kAny };
+
+}  // namespace sobb
