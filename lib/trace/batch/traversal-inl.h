@@ -139,11 +139,11 @@ class BatchTraversal {
     for (; met != 0; met &= met - 1) {
       const auto child = static_cast<uint32_t>(std::countr_zero(met));
       const StackKey key = make_key(0, node.meta[child], node.reference[child]);
-      prefetch_child<Node<kWidth>>(scene_, key_is_leaf(key), key_index(key));
-      push_ordered(base, top, {key, entry[child], 0},
-                   [](const BatchItem& below, const BatchItem& item) {
-                     return kQuery == Query::kClosest && below.begin < item.begin;
-                   });
+      prefetch<Node<kWidth>>(scene_, key);
+      const RayEntry distance = entry[child];
+      *make_room(base, top++, [distance](const BatchItem& below) {
+        return kQuery == Query::kClosest && below.begin < distance;
+      }) = {key, distance, 0};
     }
     of.top += static_cast<uint32_t>(top - base);
   }
@@ -163,14 +163,15 @@ class BatchTraversal {
     uint64_t* end = order;
     for (uint32_t child = 0; child < children; ++child) {
       if (lists.count[child] == 0) continue;
-      push_ordered(
-          order, end, uint64_t{lists.nearest[child]} << 32 | child,
-          [](uint64_t below, uint64_t item) { return kQuery == Query::kClosest && below < item; });
+      const uint64_t item = uint64_t{lists.nearest[child]} << 32 | child;
+      *make_room(order, end++, [item](uint64_t below) {
+        return kQuery == Query::kClosest && below < item;
+      }) = item;
     }
     for (const uint64_t* at = order; at != end; ++at) {
       const auto child = static_cast<uint32_t>(*at);
       const StackKey key = make_key(0, node.meta[child], node.reference[child]);
-      prefetch_child<Node<kWidth>>(scene_, key_is_leaf(key), key_index(key));
+      prefetch<Node<kWidth>>(scene_, key);
       copy_list(lists.list[child], lists.count[child], of.arena + begin);
       push(of, key, begin, lists.count[child]);
       begin += lists.count[child];

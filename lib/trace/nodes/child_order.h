@@ -6,14 +6,13 @@
 
 namespace sobb {
 
-// Pushes an item among those from `base` on, of which the nearest is on top. An insertion sort:
-// mostly two children are met. `nearer(a, b)` says whether a, on the stack, is to be visited before
-// b.
-template <class Item, class Nearer>
-HWY_INLINE void push_ordered(Item* base, Item*& top, const Item& item, const Nearer& nearer) {
-  Item* at = top++;
-  for (; at != base && nearer(at[-1], item); --at) *at = at[-1];
-  *at = item;
+// Makes room for a child among those from `base` to `top`, of which the nearest is on top: moves up
+// those that is_nearer(item) says are nearer, and returns the place below them. An insertion sort:
+// mostly two children are met.
+template <class Item, class IsNearer>
+HWY_INLINE Item* make_room(Item* base, Item* top, IsNearer is_nearer) {
+  for (; top != base && is_nearer(top[-1]); --top) *top = top[-1];
+  return top;
 }
 
 }  // namespace sobb

@@ -10,6 +10,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include "trace/nodes/stack_key.h"
 #include "trace/trace.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,12 +20,12 @@ namespace {
 
 inline constexpr size_t kCacheLine = 64;
 
-// Prefetches a child: all of a node, or as many bytes of a leaf.
+// Prefetches what a key names: all of a node, or as many bytes of a leaf.
 template <class Node>
-HWY_INLINE void prefetch_child(const TraceScene& scene, bool is_leaf, uint32_t index) {
+HWY_INLINE void prefetch(const TraceScene& scene, StackKey key) {
   const auto* nodes = static_cast<const Node*>(scene.nodes);
-  const void* at = is_leaf ? static_cast<const void*>(scene.blocks + index)
-                           : static_cast<const void*>(nodes + index);
+  const void* at = key_is_leaf(key) ? static_cast<const void*>(scene.blocks + key_index(key))
+                                    : static_cast<const void*>(nodes + key_index(key));
   const auto* bytes = static_cast<const uint8_t*>(at);
   for (size_t line = 0; line < sizeof(Node); line += kCacheLine) hwy::Prefetch(bytes + line);
 }

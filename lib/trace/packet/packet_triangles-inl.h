@@ -162,10 +162,15 @@ HWY_INLINE PacketHits intersect(const PacketRays<kSize, kOwnOrigins>& rays,
     px[i] = project(d, relative(0, i), sx, pz[i]);
     py[i] = project(d, relative(1, i), sy, pz[i]);
   }
-  const TriangleWeights<HalfDoubles> of(d, px, py);
-  const TriangleDistances<HalfDoubles> at(d, of, pz, hn::Load(d, rays.direction_z + first));
-  const V t = hn::IfThenElse(at.hit, at.t, hn::Set(d, -1.0));
-  return {hn::Add(hn::DemoteTo(df, t), hn::Zero(df)), of.w[1], of.w[2], at.sum};
+  const V w0 = vertex_weight(px[2], py[2], px[1], py[1]);
+  const V w1 = vertex_weight(px[0], py[0], px[2], py[2]);
+  const V w2 = vertex_weight(px[1], py[1], px[0], py[0]);
+  const V sum = hn::Add(hn::Add(w0, w1), w2);
+  const V t =
+      hit_distance(w0, w1, w2, sum, pz[0], pz[1], pz[2], hn::Load(d, rays.direction_z + first));
+  const auto hit = is_hit(d, is_inside(d, w0, w1, w2), sum, t);
+  return {hn::Add(hn::DemoteTo(df, hn::IfThenElse(hit, t, hn::Set(d, -1.0))), hn::Zero(df)), w1, w2,
+          sum};
 }
 
 // Offers a triangle to rays from `first` on, as ClosestHit::offer() does; `candidates` are those

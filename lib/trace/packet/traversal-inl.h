@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-#include <functional>
 #include <utility>
 
 #include "trace/nodes/child_order.h"
@@ -63,11 +62,11 @@ HWY_INLINE bool traverse(const TraceScene& scene, PacketRays<kSize, kOwnOrigins>
       PacketKey* const base = top;
       for (; met != 0; met &= met - 1) {
         const auto child = static_cast<uint32_t>(std::countr_zero(met));
-        prefetch_child<Node>(scene, (node.meta[child] & kLeafBit) != 0, node.reference[child]);
+        prefetch<Node>(scene, make_key(0, node.meta[child], node.reference[child]));
         PacketKey other = make_packet_key(nearest[child], beams, child, index);
         if (other < key) std::swap(other, key);
         if (other == kNoPacketKey) continue;
-        push_ordered(base, top, other, std::less<>());
+        *make_room(base, top++, [other](PacketKey below) { return below < other; }) = other;
       }
     }
     for (;; key = kNoPacketKey) {

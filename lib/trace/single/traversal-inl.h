@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <functional>
 #include <type_traits>
 #include <utility>
 
@@ -51,7 +50,7 @@ HWY_INLINE StackKey push_all_but_nearest(const TraceScene& scene, const Node& no
     const auto child = static_cast<uint32_t>(std::countr_zero(mask));
     mask &= mask - 1;
     const StackKey key = static_cast<StackKey>(key_high[child]) << 32 | node.reference[child];
-    prefetch_child<Node>(scene, key_is_leaf(key), key_index(key));
+    prefetch<Node>(scene, key);
     return key;
   };
   const StackKey first = next_key();
@@ -70,7 +69,7 @@ HWY_INLINE StackKey push_all_but_nearest(const TraceScene& scene, const Node& no
   do {
     StackKey key = next_key();
     if (key < nearest) std::swap(key, nearest);
-    push_ordered(base, top, key, std::less<>());
+    *make_room(base, top++, [key](StackKey other) { return other < key; }) = key;
   } while (mask != 0);
   return nearest;
 }
@@ -86,7 +85,7 @@ HWY_INLINE StackKey push_all_but_last(const TraceScene& scene, const Node& node,
     mask &= mask - 1;
     key = make_key(0, node.meta[child], node.reference[child]);
     if (mask == 0) return key;
-    prefetch_child<Node>(scene, key_is_leaf(key), key_index(key));
+    prefetch<Node>(scene, key);
   }
 }
 

@@ -23,7 +23,7 @@ struct Candidate {
 
 // The order of hits: by t, at equal t by (instance, geometry, primitive). Only primitives differ.
 inline bool precedes(const Candidate& a, const Candidate& b) {
-  return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
+  return a.t != b.t ? a.t < b.t : a.primitive < b.primitive;
 }
 
 // Conditions that a query adds, such as a mask or an excluded primitive. Each is a class with

@@ -72,12 +72,12 @@ class WatertightRay4 {
                            TriangleHits& hits) const {
     const Doubles d;
     const hn::Rebind<float, Doubles> df;
-    const Projection at = project_block(block, first);
-    const TriangleWeights<Doubles> weights(d, at.x, at.y);
-    const TriangleDistances<Doubles> of(d, weights, at.z, hn::Set(d, ray_.direction_z));
-    const uint32_t lanes = mask_bits(d, of.hit);
-    hits.store(of.t, weights.w[1], weights.w[2], of.sum);
-    return lanes & mask_bits(df, hn::Le(hn::DemoteTo(df, of.t), hn::Set(df, limit)));
+    const Weights of = weights(block, first);
+    V sum;
+    V t;
+    const uint32_t lanes = mask_bits(d, distances(of, sum, t));
+    hits.store(t, of.w[1], of.w[2], sum);
+    return lanes & mask_bits(df, hn::Le(hn::DemoteTo(df, t), hn::Set(df, limit)));
   }
 
   // Offers hits that find() found to `best`. Returns whether it took one.
@@ -106,36 +106,57 @@ class WatertightRay4 {
                    hn::Set(d, ray_.origin[k]));
   }
 
-  // The vertices along the ray's axes: x and y projected, z the depth.
-  struct Projection {
-    V x[3];
-    V y[3];
-    V z[3];
-  };
-  HWY_INLINE Projection project_block(const TriangleBlock& block, size_t first) const {
+  // The same coordinate projected along the ray.
+  HWY_INLINE V projected(const float (&vertex)[3][4], size_t first, int k, double shear,
+                         V depth) const {
     const Doubles d;
-    Projection at;
-    for (int i = 0; i < 3; ++i) at.z[i] = relative(block.vertex[i], first, 2);
-    for (int i = 0; i < 3; ++i) {
-      at.x[i] = project(d, relative(block.vertex[i], first, 0), hn::Set(d, ray_.shear_x), at.z[i]);
-    }
-    for (int i = 0; i < 3; ++i) {
-      at.y[i] = project(d, relative(block.vertex[i], first, 1), hn::Set(d, ray_.shear_y), at.z[i]);
-    }
-    return at;
+    return project(d, relative(vertex, first, k), hn::Set(d, shear), depth);
+  }
+
+  // The vertices' depths and weights, named as in triangle_test.h.
+  struct Weights {
+    V z[3];
+    V w[3];
+    hn::Mask<Doubles> inside;
+  };
+
+  HWY_INLINE Weights weights(const TriangleBlock& block, size_t first) const {
+    const Doubles d;
+    const V z0 = relative(block.vertex[0], first, 2);
+    const V z1 = relative(block.vertex[1], first, 2);
+    const V z2 = relative(block.vertex[2], first, 2);
+    const V x0 = projected(block.vertex[0], first, 0, ray_.shear_x, z0);
+    const V x1 = projected(block.vertex[1], first, 0, ray_.shear_x, z1);
+    const V x2 = projected(block.vertex[2], first, 0, ray_.shear_x, z2);
+    const V y0 = projected(block.vertex[0], first, 1, ray_.shear_y, z0);
+    const V y1 = projected(block.vertex[1], first, 1, ray_.shear_y, z1);
+    const V y2 = projected(block.vertex[2], first, 1, ray_.shear_y, z2);
+    const V w0 = vertex_weight(x2, y2, x1, y1);
+    const V w1 = vertex_weight(x0, y0, x2, y2);
+    const V w2 = vertex_weight(x1, y1, x0, y0);
+    return {{z0, z1, z2}, {w0, w1, w2}, is_inside(d, w0, w1, w2)};
+  }
+
+  // Finds where the ray meets the triangles' planes. Returns which triangles it hits.
+  HWY_INLINE hn::Mask<Doubles> distances(const Weights& of, V& sum, V& t) const {
+    const Doubles d;
+    sum = hn::Add(hn::Add(of.w[0], of.w[1]), of.w[2]);
+    t = hit_distance(of.w[0], of.w[1], of.w[2], sum, of.z[0], of.z[1], of.z[2],
+                     hn::Set(d, ray_.direction_z));
+    return is_hit(d, of.inside, sum, t);
   }
 
   template <Query kQuery>
   HWY_INLINE bool test_lanes(const TriangleBlock& block, size_t first, ClosestHit& best) const {
     const Doubles d;
-    const Projection at = project_block(block, first);
-    const TriangleWeights<Doubles> weights(d, at.x, at.y);
-    if (mask_bits(d, weights.inside) == 0) return false;
-    const TriangleDistances<Doubles> of(d, weights, at.z, hn::Set(d, ray_.direction_z));
-    const uint32_t lanes = mask_bits(d, of.hit);
+    const Weights of = weights(block, first);
+    if (mask_bits(d, of.inside) == 0) return false;
+    V sum;
+    V t;
+    const uint32_t lanes = mask_bits(d, distances(of, sum, t));
     if (lanes == 0) return false;
     TriangleHits hits;
-    hits.store(of.t, weights.w[1], weights.w[2], of.sum);
+    hits.store(t, of.w[1], of.w[2], sum);
     return offer<kQuery>(block, first, lanes, hits, best);
   }
 
