@@ -36,7 +36,7 @@ from pathlib import Path
 import numpy as np
 
 import sobb
-from sobb.bench import find_program
+from sobb.tools.shared.bench import find_program
 
 assert importlib.metadata.version("sobb") == sobb.version()
 with sobb.Scene.load("builtin:city:3000") as scene:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m sobb`."""
+"""The entry point of `python -m sobb`."""
 
 import sys
 
-from sobb.cli import main
+from sobb.tools.cli import main
 
 sys.exit(main())

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import sobb
+from sobb import library
 from sobb import rays as make
 
 SEED = 20250607
@@ -64,3 +65,14 @@ def folder(tmp_path, monkeypatch):
         (folder / name).touch()
     monkeypatch.setenv("SOBB_SCENES", str(folder))
     return folder
+
+
+@pytest.fixture
+def places(tmp_path, monkeypatch):
+    """The folders of a wheel and of a checkout, neither of which has a library yet."""
+    wheel, checkout = tmp_path / "native" / "lib", tmp_path / "build" / "lib"
+    wheel.mkdir(parents=True)
+    checkout.mkdir(parents=True)
+    monkeypatch.delenv("SOBB_LIBRARY_PATH", raising=False)
+    monkeypatch.setattr(library, "_FOLDERS", (wheel, checkout))
+    return wheel, checkout

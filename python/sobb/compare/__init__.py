@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Two files of results: what got faster or slower than the noise."""

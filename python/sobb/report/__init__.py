@@ -1,2 +1,0 @@
-# SPDX-License-Identifier: Apache-2.0
-"""The results of sweeps as one HTML page that needs nothing else."""

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One scene's figures: each ray kind, call and quality of ours, over the fastest of Embree."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from sobb.tools.shared.bench import Report, Rows
+from sobb.tools.shared.scenes import Source
+
+RAYS = ("primary", "shadow", "diffuse1", "diffuse7", "random")
+CALLS = ("single", "packet", "array")
+
+
+@dataclass(frozen=True)
+class Quality:
+    """What is compared at one quality of our build."""
+
+    sobb: str
+    aabb: str
+    peers: tuple[str, ...]
+    same: str  # the peer whose memory is compared
+
+
+QUALITIES = {
+    "medium": Quality("sobb", "aabb", ("embree_medium",), "embree_medium"),
+    "high": Quality("sobb_high", "aabb_high", ("embree_medium", "embree_high"), "embree_high"),
+}
+# Shown beside. One quality is enough: they differ by little.
+ROBUST = ("embree_high_robust",)
+METHODS = (
+    *dict.fromkeys(m for q in QUALITIES.values() for m in (q.aabb, q.sobb, *q.peers)),
+    *ROBUST,
+)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Medians in million rays a second, and bytes a triangle."""
+
+    scene: str  # as it was asked for
+    name: str
+    triangles: int
+    rays: str
+    call: str
+    quality: str
+    sobb: float
+    aabb: float
+    embree: float
+    embree_row: str  # METHOD/CALL, the fastest
+    robust: float
+    bytes: float
+    embree_bytes: float
+
+    @property
+    def ratio(self) -> float:
+        return self.sobb / self.embree
+
+    def entry(self, threads: int, isa: str) -> dict[str, str | int | float]:
+        """The figure in the JSON."""
+        return {
+            "scene": self.scene,
+            "rays": self.rays,
+            "call": self.call,
+            "threads": threads,
+            "isa": isa,
+            "quality": self.quality,
+            "ours_mrays_s": self.sobb,
+            "embree_mrays_s": self.embree,
+            "ratio": self.ratio,
+            "aabb_mrays_s": self.aabb,
+            "embree_row": self.embree_row,
+            "embree_robust_mrays_s": self.robust,
+            "bytes_per_triangle": self.bytes,
+            "embree_bytes_per_triangle": self.embree_bytes,
+        }
+
+
+def row_filter() -> str:
+    """The rows that the figures need."""
+    return f"^({'|'.join(RAYS)})/({'|'.join(METHODS)})/({'|'.join(CALLS)})(/manual_time)?$"
+
+
+def figures(source: Source, report: Report) -> list[Figure]:
+    """All figures of a scene."""
+    rows = report.medians
+    found = []
+    for rays in RAYS:
+        robust, _ = _fastest(rows, rays, ROBUST)
+        for call in CALLS:
+            for name, quality in QUALITIES.items():
+                embree, embree_row = _fastest(rows, rays, quality.peers)
+                ours = rows[f"{rays}/{quality.sobb}/{call}"]
+                found.append(
+                    Figure(
+                        scene=source.asked,
+                        name=source.name,
+                        triangles=int(report.context["triangles"]),
+                        rays=rays,
+                        call=call,
+                        quality=name,
+                        sobb=ours["Mrays/s"],
+                        aabb=rows[f"{rays}/{quality.aabb}/{call}"]["Mrays/s"],
+                        embree=embree,
+                        embree_row=embree_row,
+                        robust=robust,
+                        bytes=ours["bytes/triangle"],
+                        embree_bytes=rows[f"{rays}/{quality.same}/single"]["bytes/triangle"],
+                    )
+                )
+    return found
+
+
+def _fastest(rows: Rows, rays: str, methods: Iterable[str]) -> tuple[float, str]:
+    names = (f"{method}/{call}" for method in methods for call in CALLS)
+    # Embree 4 has no call that takes an array.
+    speeds = {name: rows[f"{rays}/{name}"]["Mrays/s"] for name in names if f"{rays}/{name}" in rows}
+    best = max(speeds, key=speeds.__getitem__)
+    return speeds[best], best
