@@ -6,7 +6,8 @@
     rays = np.zeros(1000, sobb.ray_dtype)            # origin, tmin, direction, tmax
     hits = hierarchy.intersect(rays)                 # t, u, v, primitive, geometry, instance
 
-Arrays pass to the C library and back without copies. Tracing leaves other Python threads running.
+Arrays pass to the C library and back without copies. Other Python threads run while it traces.
+The commands of `python -m sobb` are in `sobb.tools`, which nothing here imports.
 """
 
 from sobb.dtypes import INVALID, MISS, OCCLUDED_INVALID, count_dtype, hit_dtype, ray_dtype

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A failed call of the library as an exception."""
+"""The exception that a failed call of the library raises."""
 
 from enum import IntEnum
 
 
 class Status(IntEnum):
-    """sobb_status: what a call came to. sobb.h says what each means."""
+    """sobb_status: how a call ended. sobb.h says what each value means."""
 
     OK = 0
     INVALID_ARGUMENT = 1
@@ -41,8 +41,11 @@ class Status(IntEnum):
 
 
 class Error(Exception):
-    """A call failed. `status` is a Status (an int, if a later library knows more of them); the
-    text is the library's own, naming file, place and cause."""
+    """A call of the library failed.
+
+    `status` is a Status, or an int where a later library has one that this module lacks. The text
+    is the library's own, and names file, place and cause.
+    """
 
     def __init__(self, status: int, message: str):
         super().__init__(message)

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts of a .sobb file (docs/format.md, version 1) as NumPy arrays, without copies.
 
-Takes bytes that the library proved to be a file: those of Hierarchy.bytes. Proves nothing itself.
+The bytes must be those of Hierarchy.bytes, which the library proved to be a valid file: nothing is
+proved here.
 """
 
 from typing import Any, NamedTuple
 
 import numpy as np
 
-LANES = 4  # triangles a block
+LANES = 4  # triangles per block
 NO_PRIMITIVE = 0xFFFFFFFF
 
 header_dtype = np.dtype(
@@ -61,7 +62,7 @@ record_dtype = np.dtype(
 
 
 def node_dtype(width: int) -> np.dtype:
-    """A node of `width` children: slab[j, side, child], reference, basis, meta [child]."""
+    """Returns the type of a node: slab[j, side, child]; reference, basis and meta [child]."""
     return np.dtype(
         [
             ("slab", "<f4", (3, 2, width)),
@@ -73,7 +74,7 @@ def node_dtype(width: int) -> np.dtype:
 
 
 class Parts(NamedTuple):
-    """A file taken apart: views of its bytes."""
+    """The sections of a file, as views of its bytes."""
 
     header: np.ndarray  # header_dtype, ()
     directions: np.ndarray  # float32 (K, 3), unit normals
@@ -83,7 +84,7 @@ class Parts(NamedTuple):
 
 
 def parts(data: Any) -> Parts:
-    """Takes the bytes of a valid file apart."""
+    """Splits the bytes of a valid file into its sections."""
     header = np.frombuffer(data, header_dtype, 1)[0]
     table = np.frombuffer(data, section_dtype, header["section_count"], header["header_size"])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Hierarchies: build, save, open, trace."""
+"""A hierarchy: building, saving, opening and tracing it."""
 
 import os
 from collections.abc import Callable
@@ -22,7 +22,7 @@ _TRACE_COHERENT = 1
 class Hierarchy:
     """An immutable hierarchy, made by build(), Hierarchy.open() or Hierarchy.from_bytes().
 
-    Any number of threads may use one at once. A context manager that closes it.
+    Any number of threads may use one at once. As a context manager it closes itself.
     """
 
     def __init__(self, handle: Handle):
@@ -43,8 +43,9 @@ class Hierarchy:
 
         map: trace the file where it lies, instead of a private copy. Nobody may then change or
             truncate it while the hierarchy lives.
-        threads: at most this many; 0 for all. memory_limit: in bytes; 0 for none.
-        progress: as in build(); a file that takes too long is given up so.
+        threads: how many threads validate at most; 0 for all.
+        memory_limit: in bytes; 0 for none.
+        progress: as in build(); raising from it gives up a file that takes too long.
         """
         options = structs.OpenOptions(
             flags=_OPEN_MAP if map else 0,
@@ -62,7 +63,7 @@ class Hierarchy:
 
     @classmethod
     def from_bytes(cls, data: Any, threads: int = 0, memory_limit: int = 0) -> "Hierarchy":
-        """The same from the bytes of a file: anything with the buffer protocol; copied."""
+        """Opens the bytes of a file, as open() does. `data` has the buffer protocol; it is copied."""
         view = memoryview(data)
         content = np.frombuffer(view, np.uint8) if view.nbytes else np.empty(0, np.uint8)
         options = structs.OpenOptions(
@@ -78,19 +79,22 @@ class Hierarchy:
         return cls(Handle(out, library.core().sobb_release))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file, atomically: whatever happens, `path` is the old file or the new."""
+        """Writes the file atomically: whatever happens, `path` is the old file or the new one."""
         check(library.core().sobb_save(self.handle, library.path_bytes(path)))
 
     @property
     def bytes(self) -> memoryview:
-        """The bytes that save() writes, where they lie; the view keeps the hierarchy alive."""
+        """The bytes that save() writes, not copied; the view keeps the hierarchy alive."""
         handle, data, size = self.handle, c_void_p(), c_uint64()
         check(library.core().sobb_bytes(handle, byref(data), byref(size)))
         return library.borrow(handle, data.value or 0, "|u1", (size.value,), None).data
 
     @property
     def info(self) -> HierarchyInfo:
-        """The members of sobb_info; volume, quality, strategy and table by name. O(nodes)."""
+        """The members of sobb_info, with names for volume, quality, strategy and table.
+
+        Cost: O(nodes).
+        """
         struct = structs.HierarchyInfo()
         check(library.core().sobb_get_info(self.handle, byref(struct)))
         return from_struct(HierarchyInfo, struct)
@@ -119,13 +123,16 @@ class Hierarchy:
     ) -> tuple[np.ndarray, np.ndarray]: ...
 
     def intersect(self, rays, coherent=False, threads=0, counts=False, isa="best", out=None):
-        """Closest hits.
+        """Finds the closest hit of each ray.
 
-        rays: ray_dtype, any shape; not copied if contiguous. coherent: neighbours in the array are
-        alike, begin with packets. threads: at most this many; 0 for all. isa: "best", "sse4" or
-        "avx2". Neither changes the result. counts: return the work done for each ray as well.
-        out: where to write the hits, hit_dtype of the shape of `rays`, contiguous; a loop saves
-        the time that new memory takes.
+        rays: ray_dtype, any shape; not copied if contiguous.
+        coherent: neighbours in the array are alike, so begin with packets. As `threads` and `isa`,
+            this changes the speed and never the result.
+        threads: how many threads trace at most; 0 for all.
+        counts: return the work done for each ray as well.
+        isa: the instruction set, "best", "sse4" or "avx2".
+        out: the array that takes the hits, hit_dtype of the shape of `rays`, contiguous. A loop
+            that passes one saves the time that new memory takes.
 
         Returns hits, hit_dtype of the shape of `rays`; with `counts`, (hits, counts), the second
         of count_dtype. A ray that is not valid gets primitive INVALID.
@@ -144,8 +151,11 @@ class Hierarchy:
         isa: str = "best",
         out: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Whether each ray meets a triangle: uint8 of the shape of `rays`, 0 free, 1 occluded,
-        OCCLUDED_INVALID for a ray that is not valid. Arguments as in intersect()."""
+        """Tells whether each ray meets a triangle. The arguments are those of intersect().
+
+        Returns uint8 of the shape of `rays`: 0 for a free ray, 1 for an occluded one,
+        OCCLUDED_INVALID for one that is not valid.
+        """
         rays = contiguous_rays(rays)
         occluded = _output(rays, np.dtype(np.uint8), out)
         self._trace(library.core().sobb_occluded, rays, occluded, None, coherent, threads, isa)
@@ -162,13 +172,13 @@ class Hierarchy:
 
     @property
     def handle(self) -> Handle:
-        """The hierarchy's memory: what keeps it alive."""
+        """The reference that keeps the hierarchy's memory alive."""
         if self._handle is None:
             raise ValueError("the hierarchy is closed")
         return self._handle
 
     def close(self) -> None:
-        """Lets go of the hierarchy. It is freed when the views of its bytes are gone."""
+        """Drops the hierarchy. Its memory is freed when the views of its bytes are gone."""
         self._handle = None
 
     def __enter__(self) -> "Hierarchy":
@@ -178,15 +188,17 @@ class Hierarchy:
         self.close()
 
     def __copy__(self) -> "Hierarchy":
-        """Another reference to the same memory, closed by itself."""
+        """Returns another reference to the same memory, which is closed separately."""
         return Hierarchy(self.handle)
 
     def __deepcopy__(self, _memo: dict[int, Any]) -> "Hierarchy":
-        return self.__copy__()  # nothing can change what they share
+        return self.__copy__()  # what they share is immutable
 
     def __reduce_ex__(self, protocol: Any) -> tuple[Callable[..., "Hierarchy"], tuple[Any]]:
-        """Pickled as its bytes, from protocol 5 on out of band where the pickler asks for it;
-        what is unpickled was proved safe to trace."""
+        """Pickles the bytes, from protocol 5 on out of band where the pickler asks for that.
+
+        Unpickling validates them, as from_bytes() does.
+        """
         content = PickleBuffer(self.bytes) if protocol >= 5 else bytes(self.bytes)
         return Hierarchy.from_bytes, (content,)
 
@@ -214,14 +226,19 @@ def build(
     """Builds a hierarchy. The same input and options give the same bytes.
 
     triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's; or vertices,
-    float32 (n, 3), with faces, uint32 (m, 3).
-    volume: "sobb" or "aabb". k: planes of the k-DOP, 32, 48 or 64. quality: "low", "medium",
-    "high". strategy: "k", "k2", "k3". table: the directions, "spread" evenly or "fitted" to the
-    scene's own; None for fitted where the volume is SOBB. width: children a node, 4 or 8. threads:
-    at most this many; 0 for all. isa: changes only speed. memory_limit: bytes that the build may
-    hold; 0 for none.
-    progress: called now and then, on another thread, with the fraction done, 0 to 1; what it
-    raises cancels the build and comes out of here. So does Ctrl-C.
+        float32 (n, 3), with faces, uint32 (m, 3).
+    volume: "sobb" or "aabb".
+    k: planes of the k-DOP that SOBBs are chosen from, 32, 48 or 64.
+    quality: "low", "medium" or "high".
+    strategy: how a SOBB's directions are searched, "k", "k2" or "k3".
+    table: the directions, "spread" evenly or "fitted" to the scene; None for fitted where the
+        volume is SOBB.
+    width: children per node, 4 or 8.
+    threads: how many threads build at most; 0 for all.
+    isa: the instruction set, as in intersect(); it changes only the speed.
+    memory_limit: bytes that the build may hold; 0 for none.
+    progress: called from time to time, on another thread, with the fraction done, 0 to 1. What it
+        raises cancels the build and is raised here. So is the KeyboardInterrupt of Ctrl-C.
     """
     argument = TriangleArgument(triangles, faces)
     options = structs.BuildOptions(
@@ -246,7 +263,7 @@ def build(
 
 
 def contiguous_rays(rays: Any) -> np.ndarray:
-    """`rays`, copied only if they do not lie one after the other."""
+    """Returns `rays`, copied only if they are not contiguous."""
     rays = np.asarray(rays)
     if rays.dtype != ray_dtype:
         raise TypeError(f"rays are {rays.dtype}, not sobb.ray_dtype")
@@ -254,7 +271,7 @@ def contiguous_rays(rays: Any) -> np.ndarray:
 
 
 def _output(rays: np.ndarray, dtype: np.dtype, out: np.ndarray | None) -> np.ndarray:
-    """`out`, proved fit for the results of `rays`; or a new array."""
+    """Returns `out` if the results of `rays` fit it, or a new array if it is None."""
     if out is None:
         return np.empty(rays.shape, dtype)
     if out.dtype != dtype or out.shape != rays.shape:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the library says of hierarchies and scenes: sobb_info and sobb_scene_info."""
+"""The facts about hierarchies and scenes: sobb_info and sobb_scene_info as dataclasses."""
 
 import ctypes
 from dataclasses import dataclass, fields
@@ -21,8 +21,11 @@ Info = TypeVar("Info")
 
 @dataclass(frozen=True)
 class HierarchyInfo:
-    """Figures of a hierarchy. Areas are sums over that of the input's box. The last five are of
-    the build, and zero for a hierarchy that was opened."""
+    """The figures of a hierarchy.
+
+    Areas are sums over all volumes, relative to the area of the input's box. The last five members
+    describe the build, and are zero for a hierarchy that was opened.
+    """
 
     format_version: int
     volume: str
@@ -30,18 +33,18 @@ class HierarchyInfo:
     quality: str
     strategy: str
     table: str
-    width: int  # children a node, at most
+    width: int  # children per node, at most
     depth: int
-    triangles: int  # of the input
-    degenerate: int  # of those, the ones without area
+    triangles: int  # in the input
+    degenerate: int  # triangles without area
     references: int  # in leaves; more than triangles after spatial splits
     nodes: int
     leaves: int
     blocks: int  # of four triangles
     axes_nodes: int  # nodes whose shared basis is the axes, or a fitted table's frame
-    shared_nodes: int  # with another basis shared by all children
-    own_nodes: int  # with a basis for each child
-    bytes: int  # of the file, and in memory
+    shared_nodes: int  # nodes with another basis that all children share
+    own_nodes: int  # nodes with a basis for each child
+    bytes: int  # the size of the file, and in memory
     node_bytes: int
     triangle_bytes: int
     source_hash: int
@@ -58,7 +61,7 @@ class HierarchyInfo:
 
 @dataclass(frozen=True)
 class SceneInfo:
-    """Figures of a scene; the bounds are of the vertices that triangles use."""
+    """The figures of a scene; the bounds enclose the vertices that triangles use."""
 
     default_view: int  # 1 where the file had no view and one was made
     vertex_count: int
@@ -71,7 +74,7 @@ class SceneInfo:
 
 
 def from_struct(kind: type[Info], struct: structs.SizedStruct) -> Info:
-    """The members that `kind` has: arrays as tuples, enumerations by name."""
+    """Copies the members that `kind` has: arrays as tuples, enumerations as names."""
     members = [field.name for field in fields(kind)]  # type: ignore[arg-type]
     return kind(**{name: _value(name, getattr(struct, name)) for name in members})
 

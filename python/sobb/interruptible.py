@@ -12,10 +12,10 @@ Result = TypeVar("Result")
 
 
 def run(call: Callable[[Any], Result], progress: Callable[[float], None] | None = None) -> Result:
-    """call(report), on another thread, with `report` for the options of the C call.
+    """Runs call(report) on another thread; `report` goes into the options of the C call.
 
-    progress: called now and then, on that thread, with the fraction done, 0 to 1; what it raises
-    cancels the call and comes out of here. So does Ctrl-C.
+    progress: called from time to time, on that thread, with the fraction done, 0 to 1. What it
+        raises cancels the call and is raised here. So is the KeyboardInterrupt of Ctrl-C.
     """
     stop = threading.Event()
     raised: list[BaseException] = []
@@ -25,12 +25,12 @@ def run(call: Callable[[Any], Result], progress: Callable[[float], None] | None 
         try:
             if progress is not None:
                 progress(fraction)
-        except BaseException as error:  # nothing may pass through the C library
+        except BaseException as error:  # no exception may cross the C library
             raised.append(error)
             return 1
         return int(stop.is_set())
 
-    # Python hears of Ctrl-C only between its own instructions, so this thread must not be in C.
+    # Python sees Ctrl-C only between its own instructions, so this thread must not be in C.
     with ThreadPoolExecutor(1) as worker:
         try:
             return worker.submit(call, report).result()

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Finding and loading libsobb and libsobb_scene, and what every call into them shares.
+"""Finds and loads libsobb and libsobb_scene, and holds what every call into them shares.
 
 A library is looked for in the folder that the environment's SOBB_LIBRARY_PATH names, and nowhere
 else if that is set; then in native/lib of this package, where a wheel has it; then in
 build/release/lib of the checkout that this package lies in; then where the system looks. Programs
-lie in bin beside that lib. Loading happens at the first call that needs it.
+lie in bin beside that lib. The first call that needs a library loads it.
 """
 
 import ctypes
@@ -86,12 +86,12 @@ def core() -> ctypes.CDLL:
 @cache
 def scene() -> ctypes.CDLL:
     """libsobb_scene: the importers."""
-    core()  # first, so that the importers find the same one
+    core()  # loaded first, so that the importers link to the same one
     return _load("sobb_scene", _SCENE_SIGNATURES)
 
 
 def folder() -> Path | None:
-    """Where the libraries are looked for; None: where the system looks."""
+    """Returns the folder of the libraries; None for where the system looks."""
     named = os.environ.get("SOBB_LIBRARY_PATH")
     if named:
         return Path(named)
@@ -118,21 +118,21 @@ def _load(name: str, signatures: _Signatures) -> ctypes.CDLL:
 
 
 def check(status: int) -> None:
-    """Raises Error, with the library's message, where a call on this thread failed."""
+    """Raises Error, with the library's message, unless `status` is OK."""
     if status != 0:
         raise Error(status, core().sobb_last_error().decode("utf-8", "replace"))
 
 
 def version() -> str:
-    """The version of the library that is loaded, as "major.minor.patch"."""
+    """Returns the version of the loaded library, as "major.minor.patch"."""
     number = core().sobb_version()
     return f"{number >> 16}.{number >> 8 & 255}.{number & 255}"
 
 
 def resolve_isa(isa: str = "best") -> str:
-    """The instruction set, "sse4" or "avx2", that calls with this `isa` use on this machine.
+    """Returns the instruction set, "sse4" or "avx2", that calls with this `isa` use here.
 
-    Raises Error (Status.UNSUPPORTED_CPU) where it lacks the one asked for.
+    Raises Error (Status.UNSUPPORTED_CPU) where the machine lacks the one asked for.
     """
     out = c_int()
     check(core().sobb_resolve_isa(isa_number(isa), ctypes.byref(out)))
@@ -140,7 +140,7 @@ def resolve_isa(isa: str = "best") -> str:
 
 
 class Handle:
-    """One reference to an object of the library, dropped with the last Python reference to this."""
+    """A reference to an object of the library, released with the last Python reference to this."""
 
     def __init__(self, pointer: c_void_p, release: Callable[[c_void_p], None]):
         self._as_parameter_ = pointer
@@ -154,7 +154,7 @@ class Handle:
 
 
 class _Memory:
-    """Memory of the library as NumPy and memoryview see it; keeps its owner alive."""
+    """Memory of the library, for NumPy and memoryview; it keeps its owner alive."""
 
     def __init__(self, owner: Handle, interface: dict[str, Any]):
         self.owner = owner
@@ -164,7 +164,7 @@ class _Memory:
 def borrow(
     owner: Handle, address: int, dtype: str, shape: tuple[int, ...], strides: tuple[int, ...] | None
 ) -> np.ndarray:
-    """A read-only array over memory that `owner` owns; nothing is copied."""
+    """Returns a read-only array over memory that `owner` owns; nothing is copied."""
     interface = {
         "version": 3,
         "typestr": dtype,
@@ -176,7 +176,7 @@ def borrow(
 
 
 def path_bytes(path: str | os.PathLike[str]) -> bytes:
-    """A path as the C interface takes it."""
+    """Returns a path as the C interface takes it."""
     encoded = os.fsencode(path)
     if b"\0" in encoded:
         raise ValueError(f"a path with a null byte: {path!r}")
@@ -184,7 +184,7 @@ def path_bytes(path: str | os.PathLike[str]) -> bytes:
 
 
 def unsigned(name: str, value: int, bits: int = 32) -> int:
-    """`value`, proved to fit an unsigned integer; ctypes would wrap it silently."""
+    """Returns `value` if it fits an unsigned integer; ctypes would wrap it silently."""
     number = index(value)
     if not 0 <= number < 1 << bits:
         raise ValueError(f"{name} is {number}: not from 0 to 2^{bits} - 1")
@@ -192,17 +192,17 @@ def unsigned(name: str, value: int, bits: int = 32) -> int:
 
 
 def number_of(what: str, names: Mapping[str, int], name: str) -> int:
-    """The value of an enumeration by its name."""
+    """Returns the value of an enumeration that has this name."""
     if name not in names:
         raise ValueError(f"{what} is {name!r}: not one of {', '.join(names)}")
     return names[name]
 
 
 def name_of(names: Mapping[str, int], number: int) -> str:
-    """The name of an enumeration's value."""
+    """Returns the name of an enumeration's value, or its digits if it has none."""
     return next((name for name, value in names.items() if value == number), str(number))
 
 
 def isa_number(isa: str) -> int:
-    """sobb_isa of "best", "sse4" or "avx2"."""
+    """Returns the sobb_isa that "best", "sse4" or "avx2" names."""
     return number_of("isa", _ISAS, isa)

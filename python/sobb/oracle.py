@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is right: closest hits by trying every triangle."""
+"""The oracle: closest hits by testing every triangle, which define what is right."""
 
 from ctypes import byref
 from typing import Any
@@ -15,9 +15,12 @@ from sobb.triangles import TriangleArgument
 def brute_force(
     triangles: Any, rays: np.ndarray, faces: Any = None, threads: int = 0
 ) -> np.ndarray:
-    """Closest hits without any hierarchy, in scalar code; the hierarchies equal it bit by bit.
+    """Finds closest hits without a hierarchy, in scalar code; every hierarchy gives the same bits.
 
-    triangles, faces: as in build(). rays: ray_dtype, any shape. Returns hit_dtype of that shape.
+    triangles, faces: as in build().
+    rays: ray_dtype, any shape. Returns hit_dtype of that shape.
+    threads: how many threads trace at most; 0 for all.
+
     Cost: O(rays * triangles).
     """
     argument = TriangleArgument(triangles, faces)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rays to trace: primary ones of a view, diffuse bounces, random ones through a box."""
+"""Rays to trace: primary rays of a view, diffuse bounces, random rays through a box."""
 
 import math
 from collections.abc import Sequence
@@ -15,16 +15,19 @@ PACKET_SIDE = 4
 
 
 def tile_order(width: int, height: int) -> np.ndarray:
-    """The pixels (y * width + x) of a picture in the order of rays: tiles of 8 x 8 row by row; in
-    a tile four squares of 4 x 4; in a square row by row. Of a picture whose sides are multiples of
-    4, any 16 rays from a multiple of 16 on are one square: a packet of like rays."""
+    """Returns the pixels (y * width + x) of a picture in the order of its rays.
+
+    Tiles of 8 x 8 follow each other row by row; in a tile, four squares of 4 x 4; in a square, the
+    pixels row by row. If the sides of the picture are multiples of 4, any 16 rays from a multiple
+    of 16 on are one square, which makes a coherent packet.
+    """
     y, x = (axis.ravel() for axis in np.mgrid[:height, :width])
     keys = (x, y, x // PACKET_SIDE, y // PACKET_SIDE, x // TILE, y // TILE)
     return np.lexsort(keys)
 
 
 def primary(view: View, width: int, height: int) -> tuple[np.ndarray, np.ndarray]:
-    """Rays through the centres of a picture's pixels, directions of length 1, in tile order.
+    """Makes rays through the centres of a picture's pixels, directions of length 1, in tile order.
 
     Returns (rays, pixels): ray_dtype (width * height,), and the pixel y * width + x of each ray.
     """
@@ -33,7 +36,7 @@ def primary(view: View, width: int, height: int) -> tuple[np.ndarray, np.ndarray
 
 
 def through_pixels(view: View, width: int, height: int, pixels: np.ndarray) -> np.ndarray:
-    """The rays of some pixels (y * width + x) of a picture."""
+    """Makes the primary rays of some pixels (y * width + x) of a picture: ray_dtype (n,)."""
     eye, target, up = (np.array(v, np.float64) for v in (view.eye, view.target, view.up))
     forward = normalised((target - eye)[None])[0]
     right = normalised(np.cross(forward, up)[None])[0]
@@ -49,7 +52,7 @@ def through_pixels(view: View, width: int, height: int, pixels: np.ndarray) -> n
 def make_rays(
     origins: np.ndarray, directions: np.ndarray, tmax: np.ndarray | float = np.inf
 ) -> np.ndarray:
-    """Rays from origins (n, 3) and directions (n, 3), tmin 0: ray_dtype (n,)."""
+    """Makes rays of origins (n, 3) and directions (n, 3), with tmin 0: ray_dtype (n,)."""
     rays = np.zeros(len(origins), ray_dtype)
     rays["origin"] = origins
     rays["direction"] = directions
@@ -58,7 +61,7 @@ def make_rays(
 
 
 def diffuse(points: SurfacePoints, seed: int | Sequence[int]) -> np.ndarray:
-    """A bounce from each point, its direction distributed as the cosine to the normal.
+    """Makes a bounce from each point; directions are distributed by the cosine to the normal.
 
     The same points and seed give the same rays. Origins are lifted off the surface by
     points.epsilon. Returns ray_dtype (n,).
@@ -67,8 +70,10 @@ def diffuse(points: SurfacePoints, seed: int | Sequence[int]) -> np.ndarray:
 
 
 def bounces(points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
-    """The same from numbers of the caller's, float32 (n, 2) in [0, 1), evenly spread ones for
-    instance."""
+    """Makes bounces as diffuse() does, from the caller's numbers, float32 (n, 2) in [0, 1).
+
+    Numbers that are evenly spread give less noise than random ones.
+    """
     # A point on the unit sphere around the tip of the normal: the sum has the cosine's density.
     z = 1 - 2 * uniform[:, 0]
     radius = np.sqrt(np.maximum(1 - z * z, 0))
@@ -81,7 +86,7 @@ def bounces(points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
 def random_in_box(
     bounds_min: Sequence[float], bounds_max: Sequence[float], count: int, seed: int | Sequence[int]
 ) -> np.ndarray:
-    """Rays between random points of a box, without end: ray_dtype (count,)."""
+    """Makes rays through pairs of random points in a box, without an end: ray_dtype (count,)."""
     random = np.random.default_rng(seed).random((2, count, 3))
     low, high = np.array(bounds_min, np.float64), np.array(bounds_max, np.float64)
     start, end = low + random * (high - low)

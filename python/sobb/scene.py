@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles from a scene file or a built-in scene."""
+"""A scene: the triangles and views of a file or of a built-in scene."""
 
 import ctypes
 import os
@@ -19,7 +19,7 @@ from sobb.view import View
 
 @dataclass(frozen=True)
 class Mesh:
-    """A mesh of the file as placed in the scene: a range of the scene's triangles."""
+    """A mesh of the file, placed in the scene: a range of the scene's triangles."""
 
     name: str
     first_triangle: int
@@ -27,7 +27,7 @@ class Mesh:
 
 
 class Scene:
-    """An immutable scene. Made by Scene.load(); a context manager that closes it."""
+    """An immutable scene, made by Scene.load(). As a context manager it closes itself."""
 
     def __init__(self, handle: Handle):
         if not isinstance(handle, Handle):
@@ -42,13 +42,14 @@ class Scene:
         memory_limit: int = 0,
         progress: Callable[[float], None] | None = None,
     ) -> "Scene":
-        """
-        source: a .gltf, .glb, .obj, .ply, .stl or .off file, or
-            "builtin:NAME[:TRIANGLES]"; "^4", "^16" or "^64" behind it refines the scene to so
-            many times its triangles, "@DEGREES" turns it and its views.
+        """Loads a scene file or makes a built-in scene.
+
+        source: a .gltf, .glb, .obj, .ply, .stl or .off file, or "builtin:NAME[:TRIANGLES]".
+            "^4", "^16" or "^64" behind it refines the scene to so many times its triangles;
+            "@DEGREES" turns it and its views.
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
         memory_limit: bytes that loading may hold at once; 0 for none.
-        progress: as in sobb.build(); a file that takes too long is given up so.
+        progress: as in sobb.build(); raising from it gives up a file that takes too long.
         """
         options = structs.SceneOptions(
             views_path=None if views is None else library.path_bytes(views),
@@ -66,13 +67,13 @@ class Scene:
 
     @property
     def handle(self) -> Handle:
-        """The scene's memory: what keeps it alive."""
+        """The reference that keeps the scene's memory alive."""
         if self._handle is None:
             raise ValueError("the scene is closed")
         return self._handle
 
     def close(self) -> None:
-        """Lets go of the scene. Its memory is freed when the arrays taken from it are gone."""
+        """Drops the scene. Its memory is freed when the arrays taken from it are gone."""
         self._handle = None
 
     def __enter__(self) -> "Scene":
@@ -88,7 +89,7 @@ class Scene:
 
     @property
     def vertices(self) -> np.ndarray:
-        """Positions, float32 (n, 3), read-only, not copied; the array keeps the scene alive."""
+        """The positions, float32 (n, 3), read-only, not copied; the array keeps the scene alive."""
         t = self.triangles()
         return borrow(
             self.handle, t.vertices or 0, "<f4", (t.vertex_count, 3), (t.vertex_stride or 12, 4)
@@ -96,7 +97,7 @@ class Scene:
 
     @property
     def faces(self) -> np.ndarray:
-        """Vertex indices, uint32 (m, 3), read-only, not copied; the array keeps the scene alive."""
+        """The indices, uint32 (m, 3), read-only, not copied; the array keeps the scene alive."""
         t = self.triangles()
         return borrow(self.handle, t.indices or 0, "<u4", (t.triangle_count, 3), None)
 
@@ -129,7 +130,7 @@ class Scene:
         return views
 
     def triangles(self) -> structs.Triangles:
-        """The scene's sobb_triangles; valid while its handle lives."""
+        """Returns the scene's sobb_triangles; valid while its handle lives."""
         triangles = structs.Triangles()
         check(library.scene().sobb_scene_triangles(self.handle, ctypes.byref(triangles)))
         return triangles

@@ -5,7 +5,7 @@ import ctypes
 from ctypes import c_char_p, c_double, c_float, c_int, c_uint32, c_uint64, c_void_p
 from typing import Any
 
-#: progress of build, open and scene options: (user, fraction) -> non-zero to cancel.
+#: The callback `progress` of options: (user, fraction) -> non-zero to cancel.
 Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_double)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The triangles that a hierarchy carries, by primitive: a hierarchy is complete in itself."""
+"""The triangles that a hierarchy holds, by primitive, and the points where rays hit them."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from sobb.hierarchy import Hierarchy
 
 
 class Surface:
-    """Looks triangles up in a hierarchy's own blocks. Holds 4 bytes a triangle."""
+    """Looks triangles up in a hierarchy's own blocks. It holds 4 bytes per triangle."""
 
     def __init__(self, hierarchy: Hierarchy):
         file = format.parts(hierarchy.bytes)
@@ -20,12 +20,12 @@ class Surface:
         self._lane[primitives[lanes]] = lanes
 
     def corners(self, primitives: np.ndarray) -> np.ndarray:
-        """The corners of triangles (n,): float32 (n, corner, axis)."""
+        """Returns the corners of triangles (n,): float32 (n, corner, axis)."""
         lane = self._lane[primitives]
         return self._vertex[lane // format.LANES, :, :, lane % format.LANES]
 
     def points(self, rays: np.ndarray, hits: np.ndarray) -> "SurfacePoints":
-        """The points of those of `hits` (hit_dtype, (n,)) that hit something, in their order."""
+        """Returns the points of those `hits` (hit_dtype, (n,)) that hit a triangle, in order."""
         hit = is_hit(hits)
         rays, hits = rays[hit], hits[hit]
         corners = self.corners(hits["primitive"])
@@ -40,31 +40,31 @@ class Surface:
 
 
 class SurfacePoints:
-    """Points on a surface, as rays met them."""
+    """Points where rays hit a surface."""
 
     def __init__(self, position: np.ndarray, normal: np.ndarray, epsilon: np.ndarray):
         #: float32 (n, 3)
         self.position = position
         #: float32 (n, 3), unit, on the side that the ray came from
         self.normal = normal
-        #: float32 (n,), the distance by which a ray that leaves is lifted off the surface: 64 units
-        #: in the last place of the largest coordinate, or of the distance that the ray came
+        #: float32 (n,), the distance by which the origin of a next ray is lifted off the surface:
+        #: 2^-18 times the sum of the triangle's largest coordinate and the distance the ray came
         self.epsilon = epsilon
 
     def __len__(self) -> int:
         return len(self.position)
 
     def lifted(self) -> np.ndarray:
-        """Origins for rays that leave, float32 (n, 3)."""
+        """Returns origins for rays that leave the surface, float32 (n, 3)."""
         return self.position + self.epsilon[:, None] * self.normal
 
 
 def length(vectors: np.ndarray) -> np.ndarray:
-    """The lengths of vectors (n, 3): (n,)."""
+    """Returns the lengths of vectors (n, 3): (n,)."""
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
 def normalised(vectors: np.ndarray) -> np.ndarray:
-    """Vectors (n, 3) at length 1; zero stays zero."""
+    """Scales vectors (n, 3) to length 1; zero stays zero."""
     size = length(vectors)[:, None]
     return np.divide(vectors, size, out=np.zeros_like(vectors), where=size > 0)

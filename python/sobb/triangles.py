@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles as the C interface takes them, from arrays or a scene."""
+"""Triangles for the C interface, from arrays, a mesh or a scene."""
 
 from typing import Any
 
@@ -11,15 +11,16 @@ from sobb.scene import Scene
 
 
 class TriangleArgument:
-    """A sobb_triangles and the memory behind it, alive as long as this."""
+    """A sobb_triangles, and references that keep its memory alive."""
 
     def __init__(self, triangles: Any, faces: Any = None):
-        """
+        """Checks shapes and types, and converts what the C interface does not take as it is.
+
         triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's; or vertices,
-            (n, 3), taken as float32. Rows may lie apart (a slice of wider rows); float32 rows are
-            not copied, other types are converted.
-        faces: (m, 3) vertex indices. uint32, contiguous: not copied. None where `triangles` has
-            its own.
+            (n, 3). float32 rows are not copied, and may lie apart, as a slice of wider rows does;
+            other types are converted.
+        faces: (m, 3) vertex indices, not copied if they are uint32 and contiguous; None where
+            `triangles` has its own.
         """
         if isinstance(triangles, Scene):
             if faces is not None:

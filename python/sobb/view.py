@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where a picture is taken from."""
+"""A view, from which a picture is taken, and files of views."""
 
 import json
 import math
@@ -22,8 +22,11 @@ class View:
 
 
 def default_view(bounds_min: Sequence[float], bounds_max: Sequence[float]) -> View:
-    """The view of what has none, as scene.h states it: from the box's centre c with half diagonal
-    h, the eye at c + 2.2 h (0.48, 0.36, 0.8), looking at c, up y, 50 degrees."""
+    """Returns the view that scene.h states for a scene without one.
+
+    With the centre c and the half diagonal h of the box, the eye is at c + 2.2 h (0.48, 0.36, 0.8)
+    and looks at c; y is up, and the angle is 50 degrees.
+    """
     x, y, z = ((a + b) / 2 for a, b in zip(bounds_min, bounds_max, strict=True))
     half = math.dist(bounds_min, bounds_max) / 2 or 1.0
     far = 2.2 * half
@@ -32,9 +35,9 @@ def default_view(bounds_min: Sequence[float], bounds_max: Sequence[float]) -> Vi
 
 
 def read_views(path: str | os.PathLike[str], stem: str) -> list[View]:
-    """The views of `stem` in a JSON file of views (scene.h says how it looks).
+    """Reads the views of the scene `stem` from a JSON file of views, as scene.h describes it.
 
-    Raises OSError, or ValueError naming the file and the view that is wrong.
+    Raises OSError, or ValueError that names the file and the view that is wrong.
     """
     try:
         views = json.loads(Path(path).read_text("utf-8"))[stem]
