@@ -63,7 +63,10 @@ class Hierarchy:
 
     @classmethod
     def from_bytes(cls, data: Any, threads: int = 0, memory_limit: int = 0) -> "Hierarchy":
-        """Opens the bytes of a file, as open() does. `data` has the buffer protocol; it is copied."""
+        """Opens the bytes of a file, as open() does.
+
+        data: anything with the buffer protocol; it is copied.
+        """
         view = memoryview(data)
         content = np.frombuffer(view, np.uint8) if view.nbytes else np.empty(0, np.uint8)
         options = structs.OpenOptions(

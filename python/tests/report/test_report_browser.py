@@ -91,7 +91,7 @@ def test_choosing_rays_changes_charts_and_a_call_the_table(show):
     )
     assert page.locator(".by-call:visible").count() == 1
     page.get_by_label("Traced as").select_option("single")
-    assert page.locator(".by-call:visible h3").inner_text() == "One ray a call"
+    assert page.locator(".by-call:visible h3").inner_text() == "One ray per call"
 
 
 def test_sorting_by_click(show):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command: the rows of two files of results side by side, as a table or JSON."""
+"""Compares the figures that two files of results share; prints a table or JSON."""
 
 import json
 import sys
@@ -20,7 +20,7 @@ GROUP BY ALL ORDER BY ALL
 """
 _LABELS = "SELECT case_id, name || ', view ' || view || ', ' || method FROM cases"
 
-#: What is compared of what: case, name, view, method, rays, call, metric.
+#: What identifies a figure: case, name, view, method, rays, call, metric.
 Key = tuple[str, str, int, str, str, str, str]
 
 
@@ -40,7 +40,7 @@ class Row:
 
 
 def run(a: Path, b: Path, threshold: float, as_json: bool) -> bool:
-    """Prints how B differs from A; returns whether something got slower."""
+    """Prints how B differs from A; returns whether a figure got slower."""
     with Store(a, read_only=True) as first, Store(b, read_only=True) as second:
         old, new = _samples(first), _samples(second)
         labels = {**_labels(first), **_labels(second)}
@@ -67,7 +67,7 @@ def _labels(store: Store) -> dict[str, str]:
 
 
 def _row(key: Key, a: np.ndarray, b: np.ndarray, threshold: float) -> Row:
-    # Of times the inverse is the speed.
+    # A build's speed is the inverse of its time.
     ratio = difference(a, b) if key[-1] == "mrays_s" else difference(b, a)
     return Row(*key, ratio, ratio.verdict(threshold))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ratio of two medians, and how sure it is."""
+"""The ratio of two medians, and its confidence interval."""
 
 from dataclasses import dataclass
 
@@ -14,15 +14,17 @@ _CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Difference:
-    """B's speed over A's, and the interval that holds it with 95 % confidence."""
+    """The speed of B over that of A, and its confidence interval of 95 %."""
 
     ratio: float
     low: float
     high: float
 
     def verdict(self, threshold: float) -> str:
-        """Faster or slower where the whole interval lies beyond 1, and the ratio by more than
-        `threshold` (0.05: 5 %)."""
+        """Returns FASTER or SLOWER where the whole interval lies on one side of 1.
+
+        The ratio has to differ from 1 by more than `threshold` as well (0.05 is 5 %).
+        """
         if self.low > 1 and self.ratio > 1 + threshold:
             return FASTER
         if self.high < 1 and self.ratio < 1 / (1 + threshold):
@@ -31,8 +33,11 @@ class Difference:
 
 
 def difference(a: np.ndarray, b: np.ndarray) -> Difference:
-    """By bootstrap: both are drawn anew, with replacement, many times (B. Efron, 1979); the same
-    samples give the same interval."""
+    """Estimates the interval by bootstrap (B. Efron, 1979).
+
+    Both sets of samples are drawn anew many times, with replacement. The same samples always give
+    the same interval.
+    """
     rng = np.random.default_rng(_SEED)
     ratios = _drawn_medians(b, rng) / _drawn_medians(a, rng)
     tail = (1 - _CONFIDENCE) / 2

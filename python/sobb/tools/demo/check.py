@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Holding hierarchies against brute force over all triangles."""
+"""Compares the hits of hierarchies with those of brute force over all triangles."""
 
 from collections.abc import Callable, Sequence
 
@@ -12,12 +12,15 @@ from sobb.scene import Scene
 from sobb.surface import Surface
 from sobb.view import View
 
-_CHUNK = 100  # rays: between chunks Ctrl-C is heard, and the bar moves
+_CHUNK = 100  # rays; between chunks Python sees Ctrl-C, and the bar moves
 
 
 def mixed_rays(hierarchy: Hierarchy, view: View, count: int, seed: int) -> np.ndarray:
-    """Primary rays of a view, diffuse bounces and random rays through the bounds, a third each
-    (random ones in place of bounces that the view is too empty for): ray_dtype (count,)."""
+    """Makes primary rays of a view, diffuse bounces and random rays through the bounds.
+
+    They are a third each; random rays take the place of bounces where too few primary rays hit.
+    Returns ray_dtype (count,).
+    """
     random = np.random.default_rng(seed)
     side = 256
     pixels = random.choice(side * side, count * 2 // 3, replace=False)
@@ -36,14 +39,16 @@ def against_brute_force(
     rays: np.ndarray,
     progress: Callable[[float], None] = lambda _: None,
 ) -> None:
-    """Raises ValueError, naming the ray, unless every hierarchy hits what brute force hits, bit by
-    bit in primitive, t, u and v."""
+    """Raises ValueError, which names the ray, unless all hits equal those of brute force.
+
+    Every bit of primitive, t, u and v has to be equal.
+    """
     for first in range(0, len(rays), _CHUNK):
         chunk = rays[first : first + _CHUNK]
         right = brute_force(scene, chunk)
         for hierarchy in hierarchies:
             found = hierarchy.intersect(chunk)
-            # As bytes: -0.0 is not 0.0 here.
+            # They are compared as bytes, so that -0.0 differs from 0.0.
             wrong = np.flatnonzero(right.view("V24") != found.view("V24"))
             if wrong.size:
                 i = int(wrong[0])

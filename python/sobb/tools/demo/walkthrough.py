@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The whole way: load, build, save, open, check, pictures, and one table against Embree."""
+"""Takes a scene all the way: load, build, save, open, check, draw, and compare with Embree."""
 
 import os
 from collections.abc import Callable
@@ -28,7 +28,7 @@ _CALLS = ("single", "packet", "array")
 
 
 def run(source: str, out: Path, cameras: str | None) -> None:
-    """Runs the demo on a scene file or built-in scene; writes into the folder `out`."""
+    """Runs the demo on a scene file or a built-in scene; writes into the folder `out`."""
     out.mkdir(parents=True, exist_ok=True)
     with Scene.load(source, views=cameras) as scene:
         _say(f"{source}: {scene.info.triangle_count:,} triangles")
@@ -45,7 +45,7 @@ def run(source: str, out: Path, cameras: str | None) -> None:
     _draw(aabb, sobb, view, out)
     triangles = sobb.info.triangles
     aabb.close()
-    sobb.close()  # before the benchmark takes the same memory once more
+    sobb.close()  # the benchmark takes the same memory once more
     _compare(source, cameras, triangles)
 
 
@@ -54,7 +54,7 @@ def _say(line: str) -> None:
 
 
 def _reopened(hierarchy: Hierarchy, path: Path) -> Hierarchy:
-    """The hierarchy by way of its file."""
+    """Saves a hierarchy, and returns it as its file gives it back."""
     hierarchy.save(path)
     opened = Hierarchy.open(path)
     if opened.bytes != hierarchy.bytes:
@@ -87,8 +87,8 @@ def _compare(source: str, cameras: str | None, triangles: int) -> None:
     table = _table(rows, triangles)
     table.title = f"{source}: {threads} threads, {resolve_isa()}"
     table.caption = (
-        "Area over that of the scene's box. Volumes and triangles of single rays. Mrays/s by the "
-        "fastest of one ray, one packet and one array a call."
+        "Areas are relative to that of the scene's box. Volumes and triangles are those that "
+        "single rays test. Mrays/s are by the fastest call: of one ray, of a packet or of an array."
     )
     Console(width=76, highlight=False).print(table)
 
@@ -110,7 +110,7 @@ def _table(rows: bench.Rows, triangles: int) -> Table:
 
     def fastest(kind: str) -> Callable[[str], float | None]:
         def speed(method: str) -> float:
-            # Embree 4 has no call that takes an array.
+            # Embree 4 has no call that takes an array of rays.
             calls = (rows.get(f"{kind}/{method}/{call}") for call in _CALLS)
             return max(row["Mrays/s"] for row in calls if row is not None)
 
@@ -122,7 +122,7 @@ def _table(rows: bench.Rows, triangles: int) -> Table:
     add("area of leaf volumes", built("area_leaf"), 1)
     for title, kind in _KINDS.items():
         table.add_section()
-        add(f"{title}: volumes a ray", worked(kind, "volumes/ray"), 1)
-        add(f"{title}: triangles a ray", worked(kind, "triangles/ray"), 1)
+        add(f"{title}: volumes per ray", worked(kind, "volumes/ray"), 1)
+        add(f"{title}: triangles per ray", worked(kind, "triangles/ray"), 1)
         add(f"{title}: Mrays/s", fastest(kind), 2)
     return table

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The chart: how fast secondary rays are with each method, over AABBs, scene by scene."""
+"""The chart: the speed of secondary rays with each method, over AABBs, scene by scene."""
 
 import io
 from collections.abc import Sequence
@@ -22,12 +22,12 @@ _TICKS = [2.0**i * m for i in range(-6, 7) for m in (1.0, 1.5)]
 
 @dataclass(frozen=True)
 class _Mark:
-    """How a method is drawn."""
+    """How a method's points are drawn."""
 
     colour: str
     shape: str
     filled: bool
-    lane: float  # from the middle of its scene's row, in rows, so that few marks cover others
+    offset: float  # from the middle of its scene's row, in rows, so that few marks cover others
 
 
 _MARKS = {
@@ -45,7 +45,7 @@ _MARKS = {
 
 
 def picture(scenes: Sequence[Measured], kind: str) -> bytes:
-    """The chart as a file of that kind, png or svg."""
+    """Draws the chart; returns the bytes of a file of this kind, png or svg."""
     panels = {title: groups(scenes, layout) for layout, title in _TITLES.items()}
     rows = max(len(shown) for shown in panels.values())
     figure = Figure(figsize=(9, 1.7 + 0.36 * rows), facecolor=_PAPER, layout="constrained")
@@ -59,7 +59,7 @@ def picture(scenes: Sequence[Measured], kind: str) -> bytes:
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=5, frameon=False, fontsize=8.5)
     out = io.BytesIO()
-    # Equal figures make equal files: no date, and names in the SVG that are not random.
+    # Equal figures make equal files: without a date, and with a fixed salt for the SVG's names.
     with rc_context({"svg.hashsalt": "sobb"}):
         dated = {"Date": None} if kind == "svg" else None
         figure.savefig(out, format=kind, dpi=200, metadata=dated)
@@ -72,7 +72,7 @@ def _draw_scenes(axis: Axes, shown: Sequence[Group]) -> None:
     axis.tick_params(colors=_INK, labelsize=8.5, length=0)
     for row in range(0, len(shown), 2):
         axis.axhspan(row - 0.5, row + 0.5, color=_BAND, linewidth=0, zorder=0)
-    if len(shown) > 1:  # the last are the means
+    if len(shown) > 1:  # the last row has the means
         axis.axhline(len(shown) - 1.5, color=_INK, linewidth=0.8)
     for side in axis.spines.values():
         side.set_visible(False)
@@ -84,7 +84,7 @@ def _draw_methods(axis: Axes, shown: Sequence[Group]) -> None:
         points = []
         for row, group in enumerate(shown):
             ratio = group.rows[method][_SECONDARY].ratio if method in group.rows else None
-            points += [(ratio, row + mark.lane)] if ratio else []
+            points += [(ratio, row + mark.offset)] if ratio else []
         axis.scatter(
             [ratio for ratio, _ in points],
             [height for _, height in points],
@@ -99,7 +99,7 @@ def _draw_methods(axis: Axes, shown: Sequence[Group]) -> None:
 
 
 def _draw_scale(axis: Axes) -> None:
-    """The scale that both panels share."""
+    """Draws the scale that both panels share."""
     axis.set_xscale("log")
     low, high = axis.get_xlim()
     axis.set_xlim(min(low, 0.7), max(high, 1.45))

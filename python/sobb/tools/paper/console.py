@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A scene's rows on stdout: with the paper's bold on a terminal, plain where that is a file."""
+"""Prints a scene's rows: with the paper's bold on a terminal, plain into a file."""
 
 import sys
 

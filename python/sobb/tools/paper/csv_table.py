@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table as CSV: a line for each scene, layout and method, with all that it depends on."""
+"""The table as CSV: a line for each scene, layout and method, with its circumstances."""
 
 import csv
 import io
@@ -38,7 +38,7 @@ _CONTEXT = {
 
 
 def text(scenes: Iterable[Measured]) -> str:
-    """The whole file. Cells of what was not measured, or not repeated, are empty."""
+    """Returns the whole file. Cells are empty where nothing was measured, or nothing repeated."""
     names = ["scene", "triangles", "layout", "method", "strategy"]
     for column in COLUMNS:
         names += [column.key, f"{column.key}_cv"] if column.timed else [column.key]

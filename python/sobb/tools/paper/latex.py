@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table as LaTeX, to be \\input where the packages booktabs and longtable are loaded."""
+"""The table as LaTeX: a file to \\input, which needs the packages booktabs and longtable."""
 
 from collections.abc import Sequence
 
@@ -19,18 +19,18 @@ _SPECIAL = {
 
 
 def text(scenes: Sequence[Measured]) -> str:
-    """The whole file: a longtable for each layout."""
+    """Returns the whole file: a longtable for each layout."""
     tables = (_table(groups(scenes, layout), what) for layout, what in LAYOUTS.items())
     return "% \\usepackage{booktabs,longtable}\n" + "\n".join(tables)
 
 
 def escape(name: str) -> str:
-    """Text in which no character is a command."""
+    """Escapes the characters that are commands."""
     return "".join(_SPECIAL.get(character, character) for character in name)
 
 
 def _table(shown: Sequence[Group], what: str) -> str:
-    # A number and its bracket are two columns, so that both line up.
+    # A value and its ratio are two columns, so that both line up.
     titles = (f"\\multicolumn{{2}}{{r}}{{{escape(column.title)}}}" for column in COLUMNS)
     lines = [
         f"\\begin{{longtable}}{{ll{'r@{~}r' * len(COLUMNS)}}}",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table as Markdown, under a heading that says what was measured, on what and how."""
+"""The table as Markdown, under a text that says what was measured, on what and how."""
 
 import re
 from collections.abc import Sequence
@@ -9,19 +9,19 @@ from sobb.tools.shared.cells import Cell
 from sobb.tools.shared.methods import TITLES as METHODS
 
 _HOW = """\
-Every row of a scene shares one hierarchy of AABBs, of medium quality, and one traversal: only the
-volumes differ. Build is that of the AABBs plus the overhead, which is the conversion to the row's
-volumes alone. SOBBs are chosen by the strategy k², of directions for
+All rows of a scene share one hierarchy of AABBs, of medium quality, and one traversal: only the
+volumes differ. The build time is that of the AABBs plus the overhead, which is the time to convert
+them to the row's volumes. SOBBs are chosen by the strategy k², from the directions of
 k = 32, 48, 64, 128 or 256; d is the direct form of 48 bytes, i the indexed one of 26 bytes. Areas
-are sums over all children, relative to the area of the scene's box. Secondary rays are all bounces
-1 to 7 of a path tracer, distributed by the cosine, without Russian roulette, one path a pixel;
-rays and times are summed. Figures are medians; in brackets is the ratio to the AABB, for the
-overhead to the OBB; bold is the best of a column. All methods gave the same hits bit by bit on all
-rays, and {brute_force_rays} rays of each scene hit what brute force hits."""
+are sums over all children, relative to the area of the scene's box. Secondary rays are bounces
+1 to 7 of a path tracer, distributed by the cosine, without Russian roulette, one path per pixel;
+rays and times are summed. Figures are medians. In brackets is the ratio to the AABB, for the
+overhead to the OBB. The best of a column is bold. All methods gave the same hits, bit by bit, on
+all rays, and {brute_force_rays} rays of each scene hit what brute force hits."""
 
 
 def text(scenes: Sequence[Measured]) -> str:
-    """The whole file."""
+    """Returns the whole file."""
     context = scenes[0].report.context
     parts = [
         "# Bounding volumes compared",
@@ -38,14 +38,16 @@ def text(scenes: Sequence[Measured]) -> str:
 
 def _views(context: dict) -> str:
     size = context["size"]
-    return f"Each scene by its view {context['view']}, {size} × {size} primary rays. "
+    return (
+        f"Each scene is seen from its view {context['view']}, with {size} × {size} primary rays. "
+    )
 
 
 def _spread(scenes: Sequence[Measured]) -> str:
     largest = largest_variation(scenes)
     if largest is None:
-        return "Nothing was repeated."
-    return f"Largest coefficient of variation of a time: {100 * largest[0]:.1f} % ({largest[1]})."
+        return "No time was measured more than once."
+    return f"The largest coefficient of variation is {100 * largest[0]:.1f} % ({largest[1]})."
 
 
 def _table(shown: Sequence[Group]) -> str:
@@ -66,5 +68,5 @@ def _cell(cell: Cell) -> str:
 
 
 def _escape(name: str) -> str:
-    """A file may be called anything."""
+    """Escapes the characters that mean something to Markdown; a scene's file may have any name."""
     return re.sub(r"([\\`*_|<>\[\]~])", r"\\\1", name)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m sobb paper`: measures scene after scene and writes the table after each."""
+"""Measures scene after scene, and writes the table anew after each."""
 
 import os
 import re
@@ -13,7 +13,7 @@ from sobb.tools.shared import atomic, bench, each_scene, scenes
 PROGRAM = "sobb_bench_volumes"
 _TURNED = ("city", "foliage", "crown", "sponza-dabrovic")
 
-# Twenty scenes of up to 13 million triangles within an hour on two cores.
+# Twenty scenes of up to 13 million triangles take less than an hour on two cores.
 _EFFORT = ["--size=256", "--cell-seconds=1"]
 _QUICK_EFFORT = ["--size=64", "--cell-seconds=0.05"]
 
@@ -21,13 +21,15 @@ _QUICK_EFFORT = ["--size=64", "--cell-seconds=0.05"]
 def run(
     names: Sequence[str] | None, out: Path, quick: bool, cameras: str | None, threads: int
 ) -> None:
-    """
+    """Measures the scenes and writes the table.
+
     names: the scenes; None for the default ones.
     out: the folder for paper.md, .csv, .tex, .png, .svg and, in raw/, the program's JSON.
-    threads: 0 for all.
+    quick: trace few rays, and small scenes by default.
+    threads: how many threads build and trace; 0 for all.
 
-    A scene that fails is told on stderr, the others are measured. Raises OSError at the end then,
-    and before anything is measured where something is missing.
+    A scene that fails is reported on stderr, and the others are measured; OSError is raised at the
+    end then. It is raised before anything is measured where a scene or program is missing.
     """
     sources = (
         scenes.resolve(names) if names else scenes.quick() if quick else scenes.default(_TURNED)
@@ -79,14 +81,16 @@ def _write(measured: Sequence[Measured], out: Path, charts) -> None:
 
 
 def _show(measured: Sequence[Measured]) -> None:
-    """The only scene, or the means of several."""
+    """Prints the rows of one scene, or the means of several."""
     for layout, what in LAYOUTS.items():
         console.show(groups(measured, layout)[-1], what)
 
 
 def _raw_names(sources: Sequence[scenes.Source]) -> list[str]:
-    """File names by the scenes, so that measuring one again replaces its file; numbered where two
-    scenes in different folders have one name."""
+    """Makes file names of the scenes' names, so that measuring a scene again replaces its file.
+
+    Scenes of the same name, from different folders, are numbered.
+    """
     stems = [re.sub(r"[^\w@.+-]", "-", source.argument.split("/")[-1]) for source in sources]
     stems = [stem.removeprefix("builtin-") for stem in stems]
     again = [stems[:i].count(stem) for i, stem in enumerate(stems)]

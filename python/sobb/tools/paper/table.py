@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table's rows: figures of a method on a scene, their ratios, and which are the best."""
+"""The table's rows: a method's figures on a scene, their ratios, and which are the best."""
 
 import math
 from collections.abc import Iterable
@@ -10,9 +10,9 @@ from sobb.tools.shared.bench import Report
 from sobb.tools.shared.cells import Cell, Column, number, short_count
 from sobb.tools.shared.methods import TITLES as METHODS
 
-#: Layouts of the nodes -> what they are.
+#: Layouts of the nodes -> their descriptions.
 LAYOUTS = {"binary": "binary nodes, as in the paper", "wide": "nodes of 8 children"}
-STRATEGY = "k2"  # of the SOBBs
+STRATEGY = "k2"  # by which SOBBs are chosen
 
 
 COLUMNS = (
@@ -27,7 +27,7 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Measured:
-    """What the program said of one scene."""
+    """A scene that was measured, and the program's report."""
 
     name: str
     report: Report
@@ -51,24 +51,24 @@ class Figure:
 
 @dataclass(frozen=True)
 class Group:
-    """The rows of one scene: method -> a cell a column."""
+    """The rows of one scene: method -> a cell per column."""
 
     title: str
     rows: dict[str, list[Cell]]
 
 
 def strategy_of(method: str) -> str:
-    """How a method chose its volumes; nothing where there is one way only."""
+    """Returns the strategy by which a method chose its volumes; "" where there is only one way."""
     return STRATEGY if method.startswith("sobb") else ""
 
 
 def row_name(kind: str, method: str, layout: str) -> str:
-    """The name of the program's row."""
+    """Returns the name of the program's row."""
     return "/".join(filter(None, (kind, method, layout, strategy_of(method))))
 
 
 def figures(report: Report, method: str, layout: str) -> dict[str, Figure]:
-    """The figures of a method by the columns' keys. What was not measured is not there."""
+    """Returns a method's figures by the columns' keys; those that were not measured are missing."""
     overhead = row_name("overhead", method, layout)
     found = {
         "overhead_ms": _figure(report, overhead, "real_time"),
@@ -78,7 +78,7 @@ def figures(report: Report, method: str, layout: str) -> dict[str, Figure]:
         "secondary_mrays": _figure(report, row_name("secondary", method, layout), "Mrays/s"),
     }
     build = _figure(report, f"build/{layout}", "real_time")
-    if method == "aabb":  # its own conversion is part of its build
+    if method == "aabb":  # the conversion to AABBs is part of their build
         found["overhead_ms"] = None
         found["build_ms"] = build
     elif build is not None and found["overhead_ms"] is not None:
@@ -87,13 +87,16 @@ def figures(report: Report, method: str, layout: str) -> dict[str, Figure]:
 
 
 def groups(scenes: Iterable[Measured], layout: str) -> list[Group]:
-    """The rows of all scenes, and the geometric means of their ratios if there are several."""
+    """Returns the rows of all scenes, and of several the geometric means of their ratios."""
     made = [_group(scene, layout) for scene in scenes]
     return [*made, _means(made)] if len(made) > 1 else made
 
 
 def largest_variation(scenes: Iterable[Measured]) -> tuple[float, str] | None:
-    """The largest coefficient of variation of a time, and where; None if nothing was repeated."""
+    """Returns the largest coefficient of variation of a time, and its row.
+
+    Returns None if nothing was repeated.
+    """
     return max(
         (
             (row["real_time"], f"{scene.name}, {name}")
@@ -124,7 +127,7 @@ def _group(scene: Measured, layout: str) -> Group:
     for column in COLUMNS:
         base = measured[column.base].get(column.key)
         values = {m: measured[m][column.key].value for m in rows if column.key in measured[m]}
-        # Values that print alike are alike to who reads them.
+        # Values that print alike are equally good to whoever reads them.
         best = number(column.best(values.values())) if values else ""
         for method, cells in rows.items():
             value = values.get(method)
@@ -143,7 +146,7 @@ def _means(scenes: list[Group]) -> Group:
         for method in rows:
             found = [s.rows[method][i].ratio if method in s.rows else None for s in scenes]
             known = [ratio for ratio in found if ratio]
-            if len(known) == len(found):  # a mean over fewer scenes would not compare
+            if len(known) == len(found):  # means over different scenes cannot be compared
                 ratios[method] = geometric_mean(known)
         best = f"{column.best(ratios.values()):.2f}" if ratios else ""
         for method, cells in rows.items():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The tables on stdout."""
+"""Prints the tables: one per scene, and one for all."""
 
 import sys
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ _PIPED_WIDTH = 160  # enough for all columns on one line
 
 
 def show_scene(found: Sequence[Figure]) -> None:
-    """A row for each kind of rays and call, both qualities in it."""
+    """Prints a row for each kind of rays and call; a row has both qualities."""
     medium, high = ([f for f in found if f.quality == quality] for quality in QUALITIES)
     table = _table(
         f"{high[0].name} [{short_count(high[0].triangles)}]",
@@ -39,15 +39,15 @@ def show_scene(found: Sequence[Figure]) -> None:
     bytes_by_quality = (
         f"{f.bytes:.1f} {f.quality} (Embree {f.embree_bytes:.1f})" for f in (medium[0], high[0])
     )
-    table.caption = Text(f"bytes a triangle: {', '.join(bytes_by_quality)}")
+    table.caption = Text(f"bytes per triangle: {', '.join(bytes_by_quality)}")
     _print(table)
 
 
 def show_summary(lines: Sequence[Line], scenes: int) -> None:
-    """The least and the mean ratios over all scenes."""
+    """Prints the least and the mean ratios over all scenes."""
     columns = [f"{quality}: {what}" for quality in reversed(QUALITIES) for what in _RATIOS]
     table = _table(
-        f"{scenes} scenes: ours over Embree's fastest", ("Rays", "Call"), (*columns, *_OTHERS)
+        f"{scenes} scenes: our speed over Embree's fastest", ("Rays", "Call"), (*columns, *_OTHERS)
     )
     for line in lines:
         cells = [line.rays, line.call]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One scene's figures: each ray kind, call and quality of ours, over the fastest of Embree."""
+"""The figures of one scene: our speed by rays, call and quality, over Embree's fastest."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ CALLS = ("single", "packet", "array")
 
 @dataclass(frozen=True)
 class Quality:
-    """What is compared at one quality of our build."""
+    """The methods that are compared at one quality of our build."""
 
     sobb: str
     aabb: str
@@ -25,7 +25,7 @@ QUALITIES = {
     "medium": Quality("sobb", "aabb", ("embree_medium",), "embree_medium"),
     "high": Quality("sobb_high", "aabb_high", ("embree_medium", "embree_high"), "embree_high"),
 }
-# Shown beside. One quality is enough: they differ by little.
+# Robust mode is shown beside, at one quality, since the qualities differ by little.
 ROBUST = ("embree_high_robust",)
 METHODS = (
     *dict.fromkeys(m for q in QUALITIES.values() for m in (q.aabb, q.sobb, *q.peers)),
@@ -35,9 +35,9 @@ METHODS = (
 
 @dataclass(frozen=True)
 class Figure:
-    """Medians in million rays a second, and bytes a triangle."""
+    """Medians in million rays per second, and bytes per triangle."""
 
-    scene: str  # as it was asked for
+    scene: str  # the name that was asked for
     name: str
     triangles: int
     rays: str
@@ -46,7 +46,7 @@ class Figure:
     sobb: float
     aabb: float
     embree: float
-    embree_row: str  # METHOD/CALL, the fastest
+    embree_row: str  # METHOD/CALL of the fastest
     robust: float
     bytes: float
     embree_bytes: float
@@ -56,7 +56,7 @@ class Figure:
         return self.sobb / self.embree
 
     def entry(self, threads: int, isa: str) -> dict[str, str | int | float]:
-        """The figure in the JSON."""
+        """Returns the figure's entry in the JSON."""
         return {
             "scene": self.scene,
             "rays": self.rays,
@@ -76,12 +76,12 @@ class Figure:
 
 
 def row_filter() -> str:
-    """The rows that the figures need."""
+    """Returns the filter for the rows that the figures need."""
     return f"^({'|'.join(RAYS)})/({'|'.join(METHODS)})/({'|'.join(CALLS)})(/manual_time)?$"
 
 
 def figures(source: Source, report: Report) -> list[Figure]:
-    """All figures of a scene."""
+    """Returns all figures of a scene."""
     rows = report.medians
     found = []
     for rays in RAYS:
@@ -112,7 +112,7 @@ def figures(source: Source, report: Report) -> list[Figure]:
 
 def _fastest(rows: Rows, rays: str, methods: Iterable[str]) -> tuple[float, str]:
     names = (f"{method}/{call}" for method in methods for call in CALLS)
-    # Embree 4 has no call that takes an array.
+    # Embree 4 has no call that takes an array of rays.
     speeds = {name: rows[f"{rays}/{name}"]["Mrays/s"] for name in names if f"{rays}/{name}" in rows}
     best = max(speeds, key=speeds.__getitem__)
     return speeds[best], best

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m sobb peers`: measures scene after scene, shows each and sums all up."""
+"""Measures scene after scene, prints the figures of each, and a summary."""
 
 import json
 import os
@@ -25,14 +25,16 @@ def run(
     repetitions: int,
     out: Path | None,
 ) -> None:
-    """
-    names: the scenes; None for the default ones.
-    threads: of the tracing; 0 for all. Builds take all.
-    size: primary rays are size x size.
-    out: the JSON, written after every scene.
+    """Measures the scenes and prints their figures.
 
-    A scene that fails is told on stderr, the others are measured. Raises OSError at the end then,
-    and before anything is measured where something is missing.
+    names: the scenes; None for the default ones.
+    threads: how many threads trace; 0 for all. Builds take all.
+    isa: the instruction set of both libraries.
+    size: there are size x size primary rays.
+    out: the file for the figures as JSON, written after every scene; None for no file.
+
+    A scene that fails is reported on stderr, and the others are measured; OSError is raised at the
+    end then. It is raised before anything is measured where a scene or program is missing.
     """
     sources = scenes.resolve(names) if names else scenes.default(_TURNED)
     bench.find_program(_PROGRAM)
@@ -42,7 +44,7 @@ def run(
     arguments = [f"--isa={isa}", f"--embree-isa={EMBREE[isa]}", f"--threads={threads}"]
     arguments += [f"--size={size}"] + ([f"--cameras={cameras}"] if cameras else [])
     arguments += [f"--benchmark_filter={row_filter()}", f"--benchmark_repetitions={repetitions}"]
-    arguments += ["--benchmark_min_time=0.01"]  # one pass, unless the rays are few
+    arguments += ["--benchmark_min_time=0.01"]  # one pass, unless there are few rays
     found: list[Figure] = []
 
     def measure(source: scenes.Source) -> bench.Report:

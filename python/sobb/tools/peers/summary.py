@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Many scenes in a few figures, a line for each kind of rays and call."""
+"""The summary of many scenes: a line for each kind of rays and call."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -8,13 +8,13 @@ from statistics import geometric_mean
 from sobb.tools.peers.figures import CALLS, QUALITIES, RAYS, Figure
 from sobb.tools.shared.scenes import split_turn
 
-#: Scenes of thin, slanted triangles, for which skewed boxes are made.
+#: Words in the names of scenes of thin, slanted triangles, for which skewed boxes are made.
 _FIBRES = ("hair", "wool", "pipes")
 
 
 @dataclass(frozen=True)
 class Least:
-    """The smallest of some ratios, and the scene it is of."""
+    """The smallest of some ratios, and its scene."""
 
     value: float
     scene: str
@@ -22,24 +22,26 @@ class Least:
 
 @dataclass(frozen=True)
 class Ratios:
-    """Ours over Embree's, at one quality."""
+    """Our speed over Embree's, at one quality."""
 
     least: Least
     mean: float  # geometric
-    fibres: Least | None  # None where no scene is of fibres
+    fibres: Least | None  # None without a scene of fibres
 
 
 @dataclass(frozen=True)
 class Line:
+    """The ratios for one kind of rays and call, over all scenes."""
+
     rays: str
     call: str
     ratios: dict[str, Ratios]  # by quality
-    over_aabb: Least  # of all qualities
-    turned: Least | None  # a turned scene over the same unturned; None where no pair compares
+    over_aabb: Least  # our SOBBs over our AABBs, at any quality
+    turned: Least | None  # a turned scene over the same unturned; None without such a pair
 
 
 def lines(found: Iterable[Figure]) -> list[Line]:
-    """All lines of the figures of several scenes."""
+    """Returns all lines for the figures of several scenes."""
     found = list(found)
     groups = ((rays, call) for rays in RAYS for call in CALLS)
     return [
@@ -51,7 +53,7 @@ def lines(found: Iterable[Figure]) -> list[Line]:
 def _line(rays: str, call: str, found: Sequence[Figure]) -> Line:
     ratios = {quality: _ratios([f for f in found if f.quality == quality]) for quality in QUALITIES}
     over_aabb = _least(found, lambda f: f.sobb / f.aabb)
-    # Random rays fill the scene's box, which is another one when the scene is turned.
+    # Random rays fill the scene's box, which changes when the scene is turned.
     turned = _turned(found) if rays != "random" else None
     return Line(rays, call, ratios, over_aabb, turned)
 

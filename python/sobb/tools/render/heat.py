@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heat maps: the work of each ray as a colour, with the scale beside it."""
+"""Heat maps: the work of each ray as a colour, with a scale beside the picture."""
 
 import math
 
@@ -20,7 +20,7 @@ _INK = (225, 225, 225)
 
 
 def work(hierarchy: Hierarchy, view: View, width: int, height: int) -> np.ndarray:
-    """Volumes and triangles tested for the primary ray of each pixel: uint32 (height, width)."""
+    """Counts volumes and triangles that each pixel's primary ray tests: uint32 (height, width)."""
     rays, pixels = make.primary(view, width, height)
     _, counts = hierarchy.intersect(rays, counts=True)
     picture = np.empty(width * height, np.uint32)
@@ -29,8 +29,11 @@ def work(hierarchy: Hierarchy, view: View, width: int, height: int) -> np.ndarra
 
 
 def colour_map(size: int = 256) -> np.ndarray:
-    """Colours from little to much, uint8 (size, 3): lightness rises evenly as the eye sees it while
-    the hue turns from blue over red to yellow, in OKLab (B. Ottosson, 2020)."""
+    """Returns colours from little work to much, uint8 (size, 3).
+
+    In OKLab (B. Ottosson, 2020), lightness rises evenly, as the eye sees it, while the hue turns
+    from blue over red to yellow.
+    """
     s = np.linspace(0, 1, size)
     lightness = 0.12 + 0.83 * s
     chroma = 0.17 * np.sin(np.pi * np.clip(0.12 + 0.75 * s, 0, 1))
@@ -57,25 +60,27 @@ def colour_map(size: int = 256) -> np.ndarray:
 
 
 def shared_scale(*maps: np.ndarray) -> int:
-    """The value that is "much" for some maps together: all but one pixel in 200 are below it. A
-    multiple of 4, for the legend's marks."""
+    """Returns the value at the top of a scale that several maps share.
+
+    All but one pixel in 200 are below it. It is a multiple of 4, for the legend's marks.
+    """
     much = max(float(np.percentile(work, 99.5)) for work in maps)
     return max(4, math.ceil(much / 4) * 4)
 
 
 def coloured(work: np.ndarray, scale: int) -> np.ndarray:
-    """The map alone: colours from 0 to `scale`, uint8 (height, width, 3)."""
+    """Colours a map from 0 to `scale`, without a legend: uint8 (height, width, 3)."""
     index = np.minimum(work.astype(np.float64) * 255 / scale + 0.5, 255).astype(np.uint8)
     return colour_map()[index]
 
 
 def picture(work: np.ndarray, scale: int, title: str) -> Image.Image:
-    """A map of work (height, width) with its legend, `title` below."""
+    """Draws a map of work (height, width) with its legend, and `title` below."""
     height, width = work.shape
     result = Image.new("RGB", (width + _LEGEND, height + 2 * _TEXT), _PAPER)
     result.paste(Image.fromarray(coloured(work, scale)), (0, 0))
     _draw_legend(result, width, height, colour_map(), scale)
-    caption = f"{title}: {work.mean():.1f} volumes and triangles a ray, on average"
+    caption = f"{title}: {work.mean():.1f} volumes and triangles per ray, on average"
     ImageDraw.Draw(result).text(
         (_MARGIN, height + _TEXT), caption, _INK, ImageFont.load_default(_TEXT), anchor="lm"
     )

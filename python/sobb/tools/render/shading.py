@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of a hierarchy: shaded, and the work done for each ray."""
+"""Shaded pictures of a hierarchy: sky light with ambient occlusion, and a key light."""
 
 from collections.abc import Callable
 
@@ -14,12 +14,12 @@ from sobb.view import View
 
 Progress = Callable[[float], None]
 
-_SAMPLES = 3  # a pixel, in each direction
-_BOUNCES = 2  # ambient rays a sample
+_SAMPLES = 3  # per pixel, in each direction
+_BOUNCES = 2  # ambient rays per sample
 _BAND = 24 * _SAMPLES  # rows of samples traced at once: whole tiles, whole pixels
 _AMBIENT_REACH = 0.15  # how far ambient rays go, in median distances from the eye
-_KEY_REACH = 0.1  # how far rays to the key light go, in diagonals of the bounds: into rooms, too
-_FLOOR = 0.15  # of ambient light, where nothing is open
+_KEY_REACH = 0.1  # how far rays to the key light go, in diagonals of the bounds: rooms are lit, too
+_FLOOR = 0.15  # the share of ambient light that reaches where no sky is open
 _SEED = 1
 # Steps of an evenly spread sequence of points (M. Roberts, R2, 2018): powers of 1/plastic ratio.
 _R2 = np.array([0.7548776662466927, 0.5698402909980532])
@@ -41,10 +41,12 @@ def shaded(
     progress: Progress = lambda _: None,
     colours: np.ndarray | None = None,
 ) -> np.ndarray:
-    """A picture as sRGB bytes, uint8 (height, width, 3): clay under a sky, with ambient occlusion.
+    """Draws clay under a sky, with ambient occlusion: sRGB bytes, uint8 (height, width, 3).
 
-    Takes 9 samples a pixel. `progress` hears the fraction done, 0 to 1. `colours`: of the triangles
-    by primitive instead of clay's, linear light, float32 (m, 3).
+    Each pixel takes 9 samples.
+    progress: called with the fraction done, 0 to 1.
+    colours: the colours of the triangles, by primitive, in place of the clay's: linear light,
+        float32 (m, 3).
     """
     shader = _Shader(hierarchy, view, colours)
     across, down = width * _SAMPLES, height * _SAMPLES
@@ -62,8 +64,10 @@ def shaded(
 
 
 def _uniform(samples: np.ndarray, across: int) -> np.ndarray:
-    """Two numbers in [0, 1) for each sample (y * across + x), (n, 2): evenly spread over those of a
-    pixel, random from pixel to pixel."""
+    """Returns two numbers in [0, 1) for each sample (y * across + x): (n, 2).
+
+    They are evenly spread over the samples of a pixel, and random from pixel to pixel.
+    """
     y, x = np.divmod(samples, across)
     pixel = y // _SAMPLES * (across // _SAMPLES) + x // _SAMPLES
     first = int(pixel.min())
@@ -87,7 +91,7 @@ class _Shader:
         )
         right = np.cross(forward, up)
         self._up = up
-        # Over the photographer's left shoulder.
+        # The key light comes over the photographer's left shoulder.
         self._key = normalised((-0.4 * forward - 0.6 * right + 0.65 * up)[None])[0]
 
     def _median_distance(self, view: View) -> float:
@@ -96,7 +100,10 @@ class _Shader:
         return float(np.median(distances)) if distances.size else 1.0
 
     def colours(self, rays: np.ndarray, uniform: np.ndarray) -> np.ndarray:
-        """Linear light along rays (n,): float32 (n, 3). `uniform` (n, 2) spreads what they see."""
+        """Returns linear light along rays (n,): float32 (n, 3).
+
+        `uniform`, (n, 2), gives the directions of bounces.
+        """
         hits = self._hierarchy.intersect(rays, coherent=True)
         hit = is_hit(hits)
         colours = np.empty((len(rays), 3), np.float32)
@@ -122,7 +129,7 @@ class _Shader:
         return 0.5 * ambient + 0.9 * key + 0.1 * facing * open_sky
 
     def _openness(self, points: SurfacePoints, uniform: np.ndarray) -> np.ndarray:
-        """The share of ambient rays that leave each point without meeting anything in reach."""
+        """Returns the share of each point's ambient rays that meet nothing in reach."""
         free = np.zeros(len(points), np.float32)
         for bounce in range(_BOUNCES):
             spread = (uniform + bounce * _SAMPLES**2 * _R2) % 1
@@ -132,7 +139,7 @@ class _Shader:
         return free / _BOUNCES
 
     def _key_light(self, points: SurfacePoints) -> np.ndarray:
-        """The cosine to the key light where nothing in reach is in its way."""
+        """Returns the cosine to the key light, or 0 where something in reach hides it."""
         cosine = np.maximum(points.normal @ self._key, 0)
         lit = np.flatnonzero(cosine > 0)
         origins = points.lifted()[lit]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Methods and their options: what they are called, in which order, in which colour."""
+"""Methods and their options: their titles, their order, their colours."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -20,18 +20,18 @@ _TITLES = {**methods.TITLES, "sobb": "SOBB", "embree": "Embree"}
 _ORDER = ("aabb", "14-dop", "obb", "sobb", *(m for m in methods.TITLES if "sobb" in m), "embree")
 
 BASE = "aabb"
-#: The library's own hierarchies and Embree's. Other volumes are measured in a hierarchy and by a
-#: traversal that they share.
+#: The library's own hierarchies and Embree's. Other volumes share one hierarchy and one traversal.
 HIERARCHIES = (BASE, "sobb", "embree")
 
-# Options that make one method several: within a method, or wherever they differ at all.
+# Options that make several variants of a method: those compared within a method, and those
+# compared over all methods.
 _OF_METHOD = ("k", "strategy", "table_kind")
 _OF_ALL = ("quality", "width", "isa", "threads")
 
 
 @dataclass(frozen=True, order=True)
 class Variant:
-    """A method with those of its options that the results vary."""
+    """A method, with those of its options that differ between the results."""
 
     place: int
     method: str
@@ -47,7 +47,7 @@ class Variant:
 
 
 def variants(cases: Sequence[Case]) -> dict[str, Variant]:
-    """The variant of each case, by its id."""
+    """Returns the variant of each case, by the case's id."""
     varying = {option: _values(cases, option) for option in _OF_ALL}
     by_method: dict[str, dict[str, set]] = {}
     for name in {case.method for case in cases}:
@@ -57,8 +57,11 @@ def variants(cases: Sequence[Case]) -> dict[str, Variant]:
 
 
 def bases(cases: Iterable[Case], method: str = BASE) -> dict[str, Case]:
-    """The case of a method that each case is compared with, by its id: the same scene, subdivision
-    and view, and no other option where both have it."""
+    """Returns the case of `method` that each case is compared with, by the case's id.
+
+    Both have the same scene, subdivision and view, and the same value of each option that both
+    have.
+    """
     places: dict[tuple[str, int, int], list[Case]] = {}
     for case in cases:
         places.setdefault(place(case), []).append(case)
@@ -73,12 +76,12 @@ def bases(cases: Iterable[Case], method: str = BASE) -> dict[str, Case]:
 
 
 def place(case: Case) -> tuple[str, int, int]:
-    """What cases that compare have in common."""
+    """Returns what cases that are compared have in common."""
     return case.scene, case.subdivision, case.view
 
 
 def _option(case: Case, name: str) -> str | int | None:
-    """An option's value; the best instruction set is whichever the machine has."""
+    """Returns an option's value; None for "best", which compares with any instruction set."""
     value = getattr(case, name)
     return None if value == "best" else value
 

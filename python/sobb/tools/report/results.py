@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a file of results holds, as medians: its runs, its cases, and the figures of each."""
+"""Reads a file of results: its runs, its cases, and the medians of their figures."""
 
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -18,7 +18,7 @@ _CASES = "name, scene, subdivision, view, case_id"  # their order
 
 @dataclass(frozen=True)
 class Run:
-    """A sweep as it was run: when, where, with what."""
+    """A call of `sweep`: when, on which machine, with which versions."""
 
     run_id: int
     started: datetime | None
@@ -34,7 +34,7 @@ class Run:
 
 
 class Key(NamedTuple):
-    """What a figure is of; rays and call are None where it is of the build."""
+    """What identifies a figure of a case; rays and call are None for a figure of the build."""
 
     metric: str
     rays: str | None = None
@@ -43,7 +43,7 @@ class Key(NamedTuple):
 
 @dataclass(frozen=True)
 class Figure:
-    """Repetitions of one figure in short."""
+    """The repetitions of one figure, summed up."""
 
     median: float
     variation: float | None  # coefficient of variation, where it was measured more than once
@@ -52,7 +52,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Case:
-    """One process: a scene, a view, a method with its options, and how it ended."""
+    """What one process measured: a scene, a view, a method with its options; and how it ended."""
 
     case_id: str
     run_id: int
@@ -77,14 +77,14 @@ class Case:
     figures: Mapping[Key, Figure] = field(default_factory=dict, compare=False)
 
     def value(self, key: Key) -> float | None:
-        """The median of a figure; None where it was not measured."""
+        """Returns the median of a figure; None where it was not measured."""
         figure = self.figures.get(key)
         return None if figure is None else figure.median
 
 
 @dataclass(frozen=True)
 class Results:
-    """The whole file."""
+    """The whole file of results."""
 
     runs: list[Run]
     cases: list[Case]
@@ -98,17 +98,17 @@ class Results:
         return [case for case in self.cases if case.status != DONE]
 
     def rays(self) -> list[str]:
-        """The kinds of rays measured, in the order of RAYS."""
+        """Returns the kinds of rays that were measured, in the order of RAYS."""
         found = {key.rays for case in self.done for key in case.figures if key.rays is not None}
         return sorted(found, key=_place(RAYS))
 
     def calls(self) -> list[str]:
-        """The calls measured, in the order of CALLS."""
+        """Returns the calls that were measured, in the order of CALLS."""
         found = {key.call for case in self.done for key in case.figures if key.call is not None}
         return sorted(found, key=_place(CALLS))
 
 
-#: Kinds of rays and calls -> what they are called.
+#: Kinds of rays and calls -> their names for people.
 RAYS = {
     "primary": "primary",
     "shadow": "shadow",
@@ -116,11 +116,11 @@ RAYS = {
     "diffuse7": "diffuse, 7 bounces",
     "random": "random",
 }
-CALLS = {"array": "arrays", "packet": "packets of 16", "single": "one ray a call"}
+CALLS = {"array": "arrays", "packet": "packets of 16", "single": "one ray per call"}
 
 
 def read(path: str | os.PathLike[str]) -> Results:
-    """Reads a file of results. Raises OSError or ValueError naming the file and the cause."""
+    """Reads a file of results. Raises OSError or ValueError that names the file and the cause."""
     with Store(Path(path), read_only=True) as store:
         try:
             figures = _figures(store.connection)
@@ -154,6 +154,6 @@ def _figures(database: duckdb.DuckDBPyConnection) -> dict[str, dict[Key, Figure]
 
 
 def _place(order: Iterable[str]) -> Callable[[str], tuple[int, str]]:
-    """A key that sorts names into an order, those unknown to it last."""
+    """Makes a key that sorts names into an order; unknown names come last."""
     places = {name: i for i, name in enumerate(order)}
     return lambda name: (places.get(name, len(places)), name)

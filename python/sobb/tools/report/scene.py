@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What scenes are called on the page."""
+"""The names of scenes on the page, and their order."""
 
 from collections.abc import Iterable, Mapping
 
@@ -8,8 +8,11 @@ from sobb.tools.shared.cells import short_count
 
 
 def names(cases: Iterable[Case]) -> dict[str, str]:
-    """A name of each case's scene, by the case's id: all that was asked for where names are alike,
-    and its view where several were measured."""
+    """Returns the name of each case's scene, by the case's id.
+
+    Where two scenes have the same name, it is all that was asked for; where several views of a
+    scene were measured, it has the view.
+    """
     cases = list(cases)
     alike: dict[str, set[str]] = {}
     views: dict[str, set[int]] = {}
@@ -24,14 +27,14 @@ def names(cases: Iterable[Case]) -> dict[str, str]:
 
 
 def titles(cases: Iterable[Case]) -> Mapping[str, str]:
-    """The same with how far it is refined, and its triangles: hairball ×4 [240k]."""
+    """Returns the names with the subdivision and the number of triangles: hairball ×4 [240k]."""
     cases = list(cases)
     named = names(cases)
     return {case.case_id: named[case.case_id] + _size(case) for case in cases}
 
 
 def order(case: Case) -> tuple[str, str, int, int]:
-    """Where a case's scene stands among others: refined ones after each other."""
+    """Returns a key that sorts scenes by name, and a scene's subdivisions after each other."""
     return case.name, case.scene, case.subdivision, case.view
 
 

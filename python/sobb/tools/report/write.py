@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m sobb report`: reads the results, draws the scenes, writes the page."""
+"""Reads the results, draws the scenes, and writes the page."""
 
 import json
 from pathlib import Path
@@ -14,13 +14,15 @@ from sobb.tools.shared.progress import bar
 def run(
     database: str, out: Path, pictures: bool, size: tuple[int, int], cameras: str | None
 ) -> None:
-    """
-    database: a file of results, as `python -m sobb sweep` writes it.
+    """Writes the page of a file of results.
+
+    database: the file, as `python -m sobb sweep` writes it.
     out: the folder for index.html.
-    pictures: draw the scenes, those that can be loaded here. size: of a picture.
+    pictures: draw the scenes that can be loaded on this machine.
+    size: the width and height of a picture.
     cameras: a JSON file of views; None for that of the sweep.
 
-    Raises OSError or ValueError where the results cannot be read or the page not be written.
+    Raises OSError or ValueError where the results cannot be read, or the page cannot be written.
     """
     results = read(database)
     out.mkdir(parents=True, exist_ok=True)
@@ -45,7 +47,7 @@ def _draw(case: Case, cameras: str | None, size: tuple[int, int]) -> Picture:
 
 
 def _cameras(results: Results) -> str | None:
-    """The file of views that the last sweep was given, where it is at hand."""
+    """Returns the file of views that the last sweep was given, if this machine has it."""
     try:
         name = json.loads(results.runs[-1].spec or "").get("cameras")
     except (IndexError, ValueError, AttributeError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Figures from the benchmark programs: runs one, reads the JSON that Google Benchmark writes."""
+"""Runs a benchmark program, and reads the JSON that Google Benchmark writes."""
 
 import json
 import shutil
@@ -13,21 +13,21 @@ from typing import Any
 from sobb import library
 from sobb.tools.shared import atomic
 
-#: The name of a row -> its time in ms (`real_time`) and counters.
+#: The name of a row -> its time in ms (`real_time`) and its counters.
 Rows = dict[str, dict[str, Any]]
 
 
 @dataclass(frozen=True)
 class Report:
-    """One run of a program: what it says of itself, and its rows."""
+    """One run of a program: its context (machine, scene, versions) and its rows."""
 
     context: dict[str, Any]
     medians: Rows
-    variations: Rows  # coefficients of variation; rows that were not repeated have none
+    variations: Rows  # coefficients of variation, of the rows that were repeated
 
 
 def find_program(name: str) -> Path:
-    """A program in bin beside the libraries' folder, or in PATH. Raises OSError."""
+    """Finds a program in bin beside the libraries' folder, or in PATH. Raises OSError."""
     folder = library.folder()
     beside = None if folder is None else folder.parent / "bin"
     found = (beside and shutil.which(name, path=str(beside))) or shutil.which(name)
@@ -38,8 +38,10 @@ def find_program(name: str) -> Path:
 
 
 def run(program: str, arguments: Sequence[str], raw: Path | None = None) -> Report:
-    """Runs a program; keeps its JSON as `raw`. Raises OSError with what it said, where it or one
-    of its rows fails."""
+    """Runs a program; keeps its JSON in the file `raw`.
+
+    Raises OSError, with the last line that the program printed, if it or one of its rows fails.
+    """
     with tempfile.TemporaryDirectory(prefix="sobb-bench-") as folder:
         out = Path(folder, "rows.json")
         command = [str(find_program(program)), *arguments]
@@ -58,13 +60,13 @@ def run(program: str, arguments: Sequence[str], raw: Path | None = None) -> Repo
 
 
 def parse(document: dict[str, Any]) -> Report:
-    """What Google Benchmark wrote. Raises OSError for a row that failed."""
+    """Reads what Google Benchmark wrote. Raises OSError for a row that failed."""
     report = Report(document["context"], {}, {})
     for entry in document["benchmarks"]:
         if entry.get("error_occurred"):
             raise OSError(f"{entry['name']}: {entry.get('error_message', '')}")
         name = entry["run_name"].removesuffix("/manual_time")
-        # One repetition is its own median; of several there is an entry that says so.
+        # A single repetition is its own median; several have an entry for theirs.
         if entry["run_type"] == "iteration" or entry["aggregate_name"] == "median":
             report.medians[name] = entry
         elif entry["aggregate_name"] == "cv":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scene after scene, where one that fails does not stop the others."""
+"""Measures scene after scene; one that fails does not stop the others."""
 
 import sys
 from collections.abc import Callable, Sequence
@@ -15,8 +15,10 @@ def run(
     done: Callable[[Source, bench.Report], None],
     summary: Callable[[], None],
 ) -> None:
-    """Measures each scene and hands its report to `done`; calls `summary` after the last. A scene
-    that fails is told on stderr; raises OSError at the end then."""
+    """Measures each scene and hands its report to `done`; calls `summary` after the last.
+
+    A scene that fails is reported on stderr; OSError is raised at the end then.
+    """
     failed: list[str] = []
     for i, source in enumerate(sources):
         with bar(f"{source.argument} ({i + 1} of {len(sources)})") as progress:

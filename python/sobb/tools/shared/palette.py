@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Colours of bounding volumes in charts: M. Okabe and K. Ito's, which the colour-blind tell apart.
+"""The colours of bounding volumes in charts, the same wherever a method is drawn.
 
-A method has the same colour wherever it is drawn.
+They are those of M. Okabe and K. Ito, which the colour-blind tell apart.
 """
 
 from typing import NamedTuple
 
 
 class Colour(NamedTuple):
-    """A colour on white, and the same hue on black."""
+    """A colour for light paper, and the same hue for dark paper."""
 
     name: str
     light: str

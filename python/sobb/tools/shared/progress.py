@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A bar on the terminal for long work; nothing where no terminal watches, or without rich."""
+"""A progress bar on the terminal; none where stderr is no terminal, or without rich."""
 
 import importlib.util
 import sys
@@ -9,7 +9,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def bar(title: str) -> Iterator[Callable[[float], None]]:
-    """Shows a bar on stderr; yields a function that takes the fraction done, from any thread."""
+    """Shows a bar on stderr; yields a function that any thread may call with the fraction done."""
     if not sys.stderr.isatty() or importlib.util.find_spec("rich") is None:
         yield lambda fraction: None
         return

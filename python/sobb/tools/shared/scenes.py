@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which scenes a table is about, and what they are called in it."""
+"""Finds scenes by the names that commands take, and says what tables call them."""
 
 import os
 import re
@@ -12,7 +12,7 @@ _ENDINGS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off")
 _TURN = re.compile(r"@[-+.\d]+$")
 _TIMES = re.compile(r"\^\d+$")
 
-# Sizes like those of the paper's scenes.
+# Triangles of the built-in scenes: sizes like those of the paper's scenes.
 _SIZES = {
     "hairball": 2_900_000,
     "wool": 10_000_000,
@@ -22,15 +22,15 @@ _SIZES = {
 }
 _QUICK_SIZE = 20_000
 
-# Models are drawn along the axes, which flatters the AABB: some are measured turned too. The real
-# ones where they are at hand, else built-in ones in their place.
+# Models lie along the axes, which flatters the AABB, so some scenes are measured turned as well.
+# A built-in scene takes the place of a real one that is not in SOBB_SCENES.
 _ANGLE = "@30"
 _IN_PLACE = {"crown": "hairball", "sponza-dabrovic": "pipes"}
 
 
 @dataclass(frozen=True)
 class Source:
-    """A scene as the benchmark programs take it, its name in tables, and how it was asked for."""
+    """A scene: the programs' argument for it, its name in tables, and the name asked for."""
 
     argument: str
     name: str
@@ -38,9 +38,11 @@ class Source:
 
 
 def resolve(names: Sequence[str]) -> list[Source]:
-    """Paths, built-in scenes and names of files in the folder SOBB_SCENES, any of them with
-    ^TIMES and @DEGREES, one by one or with commas between. Raises OSError naming all that are
-    missing."""
+    """Finds scenes: paths, built-in scenes, and names of files in the folder SOBB_SCENES.
+
+    Each may end in ^TIMES and @DEGREES; one string may name several, separated by commas. Raises
+    OSError that names all that are missing.
+    """
     found = [(name, _find(name)) for given in names for name in _one_by_one(given)]
     missing = [name for name, source in found if source is None]
     if missing:
@@ -51,8 +53,8 @@ def resolve(names: Sequence[str]) -> list[Source]:
 
 
 def default(turned: Sequence[str]) -> list[Source]:
-    """The built-in scenes at the paper's sizes, the .glb files of SOBB_SCENES, and those named in
-    `turned`."""
+    """Returns the built-in scenes at the paper's sizes, the .glb files of SOBB_SCENES, and the
+    scenes `turned` by 30 degrees."""
     folder = _folder()
     files = sorted(path.stem for path in folder.glob("*.glb")) if folder else []
     there = (name if name in files else _IN_PLACE.get(name, name) for name in turned)
@@ -61,7 +63,7 @@ def default(turned: Sequence[str]) -> list[Source]:
 
 
 def quick() -> list[Source]:
-    """Small built-in scenes, one of them turned."""
+    """Returns small built-in scenes, and one of them turned."""
     small = [f"{_BUILTIN}{name}:{_QUICK_SIZE}" for name in _SIZES]
     return resolve([*small, f"{_BUILTIN}city:{_QUICK_SIZE}{_ANGLE}"])
 
@@ -100,19 +102,19 @@ def _find(name: str) -> Source | None:
 
 
 def unrefined(name: str) -> tuple[str, int]:
-    """A scene's name without ^TIMES, and those; 1 where it is not refined."""
+    """Splits a scene's name into the name without ^TIMES, and TIMES; 1 where it has none."""
     base, turn = split_turn(name)
     times = _TIMES.search(base)
     return (name, 1) if times is None else (base[: times.start()] + turn, int(times[0][1:]))
 
 
 def refined(name: str, times: int) -> str:
-    """With ^TIMES, unless they are 1."""
+    """Adds ^TIMES to a scene's name, unless they are 1."""
     base, turn = split_turn(name)
     return f"{base}^{times}{turn}" if times > 1 else name
 
 
 def split_turn(name: str) -> tuple[str, str]:
-    """A scene's name without @DEGREES, and those; nothing where it is not turned."""
+    """Splits a scene's name into the name without @DEGREES, and @DEGREES; "" where it has none."""
     turn = _TURN.search(name)
     return (name, "") if turn is None else (name[: turn.start()], turn[0])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Cases on the workers of a Dask cluster; what they measure comes back as it is through.
+"""Measures cases on the workers of a Dask cluster; each result comes back as soon as it is done.
 
-A worker builds and measures by itself, with the programs of its own installation. It finds the
-scene at the same path, or by the built-in name: cluster and client share their folders.
+A worker builds and measures by itself, with the programs of its own installation. It finds a scene
+at the same path as the client, so cluster and client have to share their folders.
 """
 
 from collections.abc import Iterator, Sequence
@@ -17,9 +17,11 @@ _CONNECT_SECONDS = 10
 
 
 def run(address: str, jobs: Sequence[Job]) -> Iterator[Outcome]:
-    """Measures jobs on the workers of the scheduler at `address`. A case whose worker dies goes to
-    another one; after as many deaths as the scheduler allows it is `crashed`. Raises OSError
-    where there is no scheduler."""
+    """Measures jobs on the workers of the scheduler at `address`.
+
+    A case whose worker dies goes to another one; after as many deaths as the scheduler allows, its
+    status is CRASHED. Raises OSError where there is no scheduler.
+    """
     from distributed import Client, KilledWorker, as_completed
 
     try:

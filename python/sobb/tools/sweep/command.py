@@ -52,7 +52,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="the file of results; cases that it has already are not measured again; %(default)s "
         "by default",
     )
-    parser.add_argument("--retry", action="store_true", help="measure cases that failed again")
+    parser.add_argument("--retry", action="store_true", help="measure again the cases that failed")
     parser.add_argument(
         "--dask",
         metavar="ADDRESS",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures one case in a process of its own: how it ended, and its samples."""
+"""Measures one case in a process of its own; returns how it ended, and its samples."""
 
 import json
 import platform
@@ -17,7 +17,7 @@ from sobb.tools.sweep.plan import Job
 from sobb.tools.sweep.records import DONE, FAILED, Case, Sample
 from sobb.tools.sweep.spec import CALLS
 
-#: The programs' counters -> the store's metrics, where their names differ.
+#: The programs' counters -> the names of the store's metrics, where these differ.
 _METRICS = {
     "Mrays/s": "mrays_s",
     "bytes/triangle": "bytes_per_triangle",
@@ -28,13 +28,13 @@ _COUNTERS = {
     *("Mrays/s", "nodes/ray", "volumes/ray", "blocks/ray", "triangles/ray", "bytes/triangle"),
     *("area_inner", "area_leaf", "topology_ms", "collapse_ms", "volume_ms", "node_bytes"),
 }
-#: What the time of a row that traces nothing is called.
+#: Rows that trace nothing -> the metric of their time.
 _TIMES = {"build": "build_ms", "overhead": "fit_ms"}
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A measured case, and what the program said of itself."""
+    """A measured case, and the version of Embree that the program reported."""
 
     case: Case
     samples: list[Sample]
@@ -42,8 +42,10 @@ class Outcome:
 
 
 def measure(job: Job) -> Outcome:
-    """Measures; whatever happens to the case is in its status. OSError where there is no program,
-    or no room for its output."""
+    """Measures a case; whatever happens to it is in its status.
+
+    Raises OSError where the program is missing, or has no room for its output.
+    """
     program = str(bench.find_program(job.program))
     with tempfile.TemporaryDirectory(prefix="sobb-sweep-") as folder, host_lock.turn() as turn:
         out = Path(folder, "rows.json")
@@ -63,7 +65,7 @@ def measure(job: Job) -> Outcome:
             except (OSError, ValueError, KeyError) as problem:
                 status, error = FAILED, f"its results cannot be read: {problem}"
     if status == DONE and not found:
-        status, error = FAILED, "no row of it was measured"
+        status, error = FAILED, "the program measured no row"
     triangles = int(context["triangles"]) if "triangles" in context else None
     case = replace(
         job.case, status=status, error=error, seconds=seconds, triangles=triangles,
@@ -74,7 +76,7 @@ def measure(job: Job) -> Outcome:
 
 
 def samples(document: dict[str, Any]) -> Iterator[Sample]:
-    """Every repetition of every row that Google Benchmark wrote. ValueError for a failed row."""
+    """Yields the samples of every repetition of every row. Raises ValueError for a failed row."""
     for row in document["benchmarks"]:
         if row.get("error_occurred"):
             raise ValueError(f"{row['name']}: {row.get('error_message', '')}")
@@ -92,6 +94,9 @@ def samples(document: dict[str, Any]) -> Iterator[Sample]:
 
 
 def _kind_and_call(name: str) -> tuple[str, str]:
-    """Of KIND/METHOD/CALL; sobb_bench_volumes, which has a layout there, traces arrays."""
+    """Returns KIND and CALL of KIND/METHOD/CALL.
+
+    The rows of sobb_bench_volumes have a layout in place of the call; they trace arrays.
+    """
     kind, _, call = name.split("/")[:3]
     return ("diffuse7" if kind == "secondary" else kind), call if call in CALLS else "array"

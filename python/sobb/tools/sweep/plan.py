@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The cases of a sweep, each with the program and arguments that measure it."""
+"""Plans the cases of a sweep, each with the program and arguments that measure it."""
 
 import hashlib
 import itertools
@@ -16,7 +16,7 @@ from sobb.tools.sweep.spec import HIERARCHIES, Spec
 
 @dataclass(frozen=True)
 class Job:
-    """A case that is to be measured, and how; sent to another machine as it is."""
+    """A case to be measured, and how. It may be pickled and measured on another machine."""
 
     case: Case
     program: str
@@ -26,7 +26,7 @@ class Job:
 
 
 def jobs(spec: Spec) -> list[Job]:
-    """All cases, each once. Raises OSError naming the scenes that are missing."""
+    """Returns all cases, each once. Raises OSError that names the scenes that are missing."""
     sources = scenes.resolve(spec.scenes)
     found = {
         job.case.case_id: job
@@ -39,7 +39,7 @@ def jobs(spec: Spec) -> list[Job]:
 
 
 def _refined(spec: Spec, source: scenes.Source) -> Iterator[tuple[scenes.Source, int]]:
-    """A scene at each subdivision, by one and the same name; only at its own if it names one."""
+    """Yields a scene at each subdivision, under one name; at its own alone if it names one."""
     _, own = scenes.unrefined(source.argument)
     if own > 1:
         name, asked = scenes.unrefined(source.name)[0], scenes.unrefined(source.asked)[0]
@@ -70,7 +70,7 @@ def _jobs(spec: Spec, source: scenes.Source, times: int, view: int, method: str)
 
 
 def _volume_case(case: Case) -> Case:
-    """A volume of the study brings its k, and lies in a hierarchy of medium quality, 8 wide."""
+    """Sets the options of a research volume: its own k, a hierarchy of medium quality, 8 wide."""
     k = re.search(r"sobb(\d+)", case.method)
     chosen = case.strategy if re.search(r"[di]$", case.method) and k else None
     return replace(
@@ -80,7 +80,7 @@ def _volume_case(case: Case) -> Case:
 
 
 def _case_id(spec: Spec, case: Case) -> str:
-    """The same for the same question, whoever asks, wherever."""
+    """Returns an id that depends on what is measured alone, not on when or where."""
     named = {key: value for key, value in asdict(case).items() if key != "case_id"}
     named |= {key: getattr(spec, key) for key in ("cameras", "size", "repetitions", "min_time")}
     named |= {"rays": sorted(spec.rays), "calls": sorted(spec.calls)}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A program in a process group of its own, under limits of time and memory."""
+"""Runs a program in a process group of its own, under limits of time and memory."""
 
 import os
 import shutil
@@ -18,10 +18,15 @@ _PAGE = os.sysconf("SC_PAGE_SIZE")
 def run(
     command: Sequence[str], folder: Path, time_limit: float, memory_limit: int, keep: int
 ) -> tuple[str, str | None]:
-    """Runs a command, which inherits the descriptor `keep`; returns its status and what it said
-    of a failure. time_limit: seconds; memory_limit: MiB that it may hold. Nothing of its group
-    outlives this call; where this process is killed, the command dies with it if `setpriv` is
-    there."""
+    """Runs a command; returns its status, and its last line where it failed.
+
+    folder: takes the file with what the command prints on stderr.
+    time_limit: in seconds. memory_limit: the MiB that the command may hold.
+    keep: a descriptor that the command inherits.
+
+    No process of the group outlives this call. If this process is killed, the command dies with it
+    where `setpriv` is installed.
+    """
     if shutil.which("setpriv"):
         command = ["setpriv", "--pdeathsig", "KILL", *command]
     said = folder / "said"
@@ -47,7 +52,7 @@ def run(
 def _watch(
     process: subprocess.Popen[bytes], time_limit: float, memory_limit: int
 ) -> tuple[str, str] | None:
-    """Waits for the end, or for a limit to be passed: says which."""
+    """Waits for the end, and returns None; or until a limit is passed, and returns which."""
     end = time.monotonic() + time_limit
     while True:
         try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of the store: a run, a case, a sample. Their members are the tables' columns."""
+"""The rows of the store: a run, a case, a sample. Their members are the columns of the tables."""
 
 from dataclasses import dataclass
 from datetime import datetime
@@ -9,8 +9,10 @@ DONE, FAILED, TIMEOUT, MEMORY, CRASHED = "done", "failed", "timeout", "memory", 
 
 @dataclass(frozen=True)
 class Run:
-    """One call of the command: where and with what; `spec` is the sweep as JSON, all defaults
-    filled in."""
+    """One call of the command: its machine and its versions.
+
+    `spec` is the sweep as JSON, with all defaults filled in.
+    """
 
     host: str
     processor: str
@@ -24,7 +26,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Case:
-    """What one process measured, and how it ended. None where a column has no meaning."""
+    """What one process measured, and how it ended. An option without meaning is None."""
 
     case_id: str
     scene: str
@@ -49,7 +51,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Sample:
-    """One repetition of one figure. Without rays and call it is of the build."""
+    """One repetition of one figure. Without rays and call it is a figure of the build."""
 
     rays: str | None
     call: str | None

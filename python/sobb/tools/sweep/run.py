@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command: measures what the file of results lacks, and keeps each case as it is through."""
+"""Measures the cases that the file of results lacks, and keeps each as soon as it is done."""
 
 import json
 import os
@@ -24,9 +24,13 @@ _PACKAGE = Path(sobb.__file__).resolve().parent
 
 
 def run(spec: Spec, out: Path, retry: bool, dask: str | None = None) -> None:
-    """Runs a sweep into the file `out`, or goes on with it. retry: cases that failed are tried
-    again; dask: the address of a scheduler whose workers measure. A case that fails is told on
-    stderr; raises OSError at the end then."""
+    """Runs a sweep into the file `out`, or continues it.
+
+    retry: measure again the cases that failed.
+    dask: the address of a scheduler whose workers measure; None for this process.
+
+    A case that fails is reported on stderr; OSError is raised at the end then.
+    """
     jobs = plan.jobs(spec)
     if dask is None:
         for program in sorted({job.program for job in jobs}):
@@ -59,7 +63,7 @@ def _measure(
                 _tell(outcome)
                 progress((done + 1) / len(left))
     except BaseException:
-        print(f"sobb: {out} has the results so far; the same command goes on", file=sys.stderr)
+        print(f"sobb: {out} has the results so far; the same command continues", file=sys.stderr)
         raise
     store.end_run(run_id, embree)
 
@@ -67,7 +71,7 @@ def _measure(
 def _outcomes(jobs: Sequence[Job], dask: str | None) -> Iterator[Outcome]:
     if dask is None:
         return map(measure.measure, jobs)
-    from sobb.tools.sweep import cluster  # a local run does without it
+    from sobb.tools.sweep import cluster  # a local run needs no Dask
 
     return cluster.run(dask, jobs)
 
@@ -95,8 +99,7 @@ def _processor() -> str:
 
 
 def _git_commit() -> str | None:
-    """The commit of the checkout that this package lies in or was made from, with + where it was
-    changed."""
+    """Returns the commit that this package lies in or was made from; + marks changes to it."""
     made_from = _PACKAGE / "native" / "commit"
     if made_from.is_file():
         return made_from.read_text().strip() or None

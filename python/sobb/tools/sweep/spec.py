@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep is about: the keys of its TOML file, checked, with their defaults."""
+"""The specification of a sweep: the keys of its TOML file, their checks and defaults."""
 
 import difflib
 import os
@@ -9,9 +9,9 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-#: Measured by sobb_bench, in the library's own wide hierarchies and in Embree's.
+#: Methods that sobb_bench measures: the library's own wide hierarchies, and Embree's.
 HIERARCHIES = ("aabb", "sobb", "embree")
-#: Measured by sobb_bench_volumes, all in one and the same hierarchy.
+# Methods that sobb_bench_volumes measures: other volumes, all in one hierarchy.
 _FORMS = tuple(f"sobb{k}{form}" for k in (32, 48, 64) for form in "di")
 VOLUMES = ("14-dop", "obb", *_FORMS, "sobb128", "sobb256")
 
@@ -22,13 +22,13 @@ _TEXT, _WHOLE, _NUMBER = "a text", "a whole number", "a number"
 
 
 def _memory_mib() -> int:
-    """Three quarters of the machine's."""
+    """Returns three quarters of the machine's memory."""
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 3 // 4 >> 20
 
 
 @dataclass(frozen=True)
 class _Key:
-    """A key's type and what it may hold: names, or the least and the largest number."""
+    """A key's type and its allowed values: names, or a range of numbers."""
 
     type: str
     default: Any
@@ -38,7 +38,7 @@ class _Key:
     many: bool = True  # a list, or one value that stands for a list of one
 
 
-#: Key -> what it may be. docs/sweeps.md says what each means.
+#: Key -> its allowed values. docs/sweeps.md says what each means.
 KEYS: Mapping[str, _Key] = {
     "scenes": _Key(_TEXT, None),
     "subdivisions": _Key(_WHOLE, (1,), (1, 4, 16, 64)),
@@ -64,7 +64,7 @@ KEYS: Mapping[str, _Key] = {
 
 @dataclass(frozen=True)
 class Spec:
-    """A sweep, all defaults filled in; its members are the keys."""
+    """A sweep with all defaults filled in; its members are the keys."""
 
     scenes: tuple[str, ...]
     subdivisions: tuple[int, ...]
@@ -83,13 +83,15 @@ class Spec:
     size: int
     repetitions: int
     min_time: float
-    time_limit: float  # seconds a case
-    memory_limit: int  # MiB a case
+    time_limit: float  # seconds per case
+    memory_limit: int  # MiB per case
 
 
 def read(path: str | Path, given: Mapping[str, Any]) -> Spec:
-    """A TOML file; what is `given` takes the place of its keys. Raises ValueError naming the file
-    and the key."""
+    """Reads a TOML file; the values of `given` replace those of the file.
+
+    Raises ValueError that names the file and the key.
+    """
     try:
         with open(path, "rb") as file:
             values = tomllib.load(file)
@@ -99,7 +101,7 @@ def read(path: str | Path, given: Mapping[str, Any]) -> Spec:
 
 
 def make(values: Mapping[str, Any], source: str) -> Spec:
-    """A sweep of keys and values. Raises ValueError naming `source` and the key."""
+    """Makes a sweep of keys and values. Raises ValueError that names `source` and the key."""
     for key in values:
         if key not in KEYS:
             near = difflib.get_close_matches(key, KEYS, 1, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The file of results: tables in DuckDB, written by one process, a transaction a case."""
+"""The file of results: tables in DuckDB, written by one process, with a transaction per case."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -31,11 +31,14 @@ CREATE VIEW results AS SELECT * FROM samples JOIN cases USING (case_id);
 
 
 class Store:
-    """A file of results; a context manager. What it cannot do is an OSError that names the file."""
+    """A file of results, and a context manager. Its errors are OSErrors that name the file."""
 
     def __init__(self, path: str | Path, read_only: bool = False):
-        """Opens a file, or makes one unless it is only to be read. ValueError for a file whose
-        tables are of another version, or that is no file of results."""
+        """Opens a file, or makes one unless it is only to be read.
+
+        Raises ValueError for a file whose tables have another version, or that is no file of
+        results.
+        """
         self._path = Path(path)
         if read_only and not self._path.is_file():
             raise FileNotFoundError(f"{path}: no such file")
@@ -45,7 +48,7 @@ class Store:
                 self._connection = duckdb.connect(str(path), read_only=read_only)
         except OSError:
             if is_new:
-                self._path.unlink(missing_ok=True)  # a full disk left a part of a header
+                self._path.unlink(missing_ok=True)  # a full disk may have left part of a header
             raise
         try:
             with self._errors():
@@ -66,7 +69,7 @@ class Store:
 
     @property
     def connection(self) -> "duckdb.DuckDBPyConnection":
-        """For questions in SQL."""
+        """The connection, for queries in SQL."""
         return self._connection
 
     def begin_run(self, run: Run) -> int:
@@ -83,7 +86,7 @@ class Store:
         return row[0]
 
     def end_run(self, run_id: int, embree_version: str | None = None) -> None:
-        """Notes that a run is through, and what only its cases could tell."""
+        """Notes the end of a run, and the version of Embree, which only its cases report."""
         with self._errors():
             self._connection.execute(
                 "UPDATE runs SET finished = ?, embree_version = coalesce(?, embree_version) "
@@ -92,12 +95,12 @@ class Store:
             )
 
     def statuses(self) -> dict[str, str]:
-        """case_id -> how it ended, of all cases."""
+        """Returns the status of every case, by case_id."""
         with self._errors():
             return dict(self._connection.execute("SELECT case_id, status FROM cases").fetchall())
 
     def add(self, run_id: int, case: Case, samples: Sequence[Sample]) -> None:
-        """Keeps a case and its samples, both or none; those of an earlier try give way."""
+        """Keeps a case and its samples, both or neither; they replace those of an earlier try."""
         names = ["run_id", *(field.name for field in fields(case))]
         marks = ", ".join("?" for _ in names)
         values = list(zip(*(astuple(sample) for sample in samples), strict=True))
@@ -126,10 +129,12 @@ class Store:
             question = "SELECT value FROM meta WHERE key = 'schema'"
             row = self._connection.execute(question).fetchone()
         if row is None:
-            raise ValueError(f"{self._path}: no file of results, its tables are others")
+            raise ValueError(
+                f"{self._path}: no file of results: its tables are not those of a sweep"
+            )
         if row[0] != SCHEMA:
             raise ValueError(
-                f"{self._path}: its tables are of version {row[0]}, this library knows {SCHEMA}"
+                f"{self._path}: its tables have version {row[0]}, this library knows {SCHEMA}"
             )
 
     @contextmanager

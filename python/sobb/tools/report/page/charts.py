@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The charts in Vega-Lite, by the names of their data, which the page holds once for all.
+"""The charts in Vega-Lite, which name their data; the page holds the data once for all charts.
 
-`rays` and `call` are parameters of the page's own controls. Colours are the page's CSS
-variables: an SVG's attributes are CSS, so that charts turn dark, and print, as the page does.
+`rays` and `call` are parameters that the page's own controls set. Colours are the page's CSS
+variables: an SVG's attributes are CSS, so charts turn dark, and print, as the page does.
 """
 
 from collections.abc import Sequence
@@ -28,13 +28,13 @@ _RATIOS = [
     10,
 ]
 _SHAPES = ("circle", "square", "triangle-up", "diamond", "triangle-down", "cross")
-_LANE = 15  # of a variant in a scene's row, in pixels
+_ROW = 15  # pixels per variant on a scene
 _SPEED, _BUILD = "speed over AABB, ×", "build time over AABB, ×"
 
 
 @dataclass(frozen=True)
 class Chart:
-    """A chart, of several panels perhaps; without any, why not."""
+    """A chart of one or more panels; without panels, the text that says why."""
 
     title: str
     text: str
@@ -43,7 +43,7 @@ class Chart:
 
 
 def all_charts(found: Sequence[Point], drawn: Sequence[Variant]) -> list[Chart]:
-    """The charts of a page. `drawn`: all variants, in the order of legends."""
+    """Returns the charts of a page. `drawn` has all variants, in the order of the legends."""
     marks = _marks(drawn)
     compared = [point for point in found if point["speed"] is not None and not point["base"]]
     built = [point for point in compared if point["build"] is not None]
@@ -56,27 +56,29 @@ def all_charts(found: Sequence[Point], drawn: Sequence[Variant]) -> list[Chart]:
     return [
         Chart(
             "Speed by scene and method",
-            "How many times as fast as with AABBs; the scale is logarithmic.",
+            "The speed over that of AABBs, on a logarithmic scale.",
             [("", _speed(compared, marks))] if compared else [],
             no_base,
         ),
         Chart(
             "What a build costs, and what it gains",
-            "Large: geometric means over the scenes, small: each scene. Up and to the left is "
-            "better; of what the dashed line joins, none is beaten in both (the Pareto front).",
+            "Large points are geometric means over the scenes, small points are single scenes. Up "
+            "and to the left is better. The dashed line joins the variants that no other beats in "
+            "both (the Pareto front).",
             [("", _gain(marks))] if built else [],
             no_base,
         ),
         Chart(
             "Cost against triangles",
-            "A scene refined by Loop subdivision: the time of a ray as its triangles grow.",
+            "The time per ray of a scene as Loop subdivision multiplies its triangles.",
             [(name, _size(name, marks)) for name in curves],
             "No scene was measured at more than one subdivision.",
         ),
         Chart(
             "Volumes tested against time",
             "Each point is a method on a scene. Where points of one colour rise faster than their "
-            "volumes, something else costs: triangles, or memory. Volumes are of single rays.",
+            "volumes, something else costs time: triangles, or memory. Volumes are those that "
+            "single rays test.",
             [("", _work(marks))] if worked else [],
             "No volumes were counted.",
         ),
@@ -84,7 +86,7 @@ def all_charts(found: Sequence[Point], drawn: Sequence[Variant]) -> list[Chart]:
 
 
 def noise(variations: Sequence[float]) -> Spec:
-    """How many figures vary how much."""
+    """Draws a histogram of the figures' coefficients of variation."""
     values = alt.InlineData(values=[{"variation": 100 * v} for v in variations])
     bins = alt.Bin(maxbins=30)
     axis = alt.Axis(tickCount=8, grid=False)
@@ -113,7 +115,7 @@ def _speed(compared: Sequence[Point], marks: dict[str, Any]) -> Spec:
     dots = of_variant.mark_point(filled=True, size=90, opacity=1)
     dots = dots.encode(shape=marks["shape"], tooltip=_tooltip("speed", "mrays"))
     layers = alt.layer(one.encode(alt.XDatum(1)), stems, dots)
-    return _spec((layers), max(rows * _LANE + 30, 110))
+    return _spec((layers), max(rows * _ROW + 30, 110))
 
 
 def _gain(marks: dict[str, Any]) -> Spec:
@@ -142,7 +144,7 @@ def _size(curve: str, marks: dict[str, Any]) -> Spec:
         .transform_filter(alt.FieldEqualPredicate(field="curve", equal=curve))
         .encode(
             alt.X("triangles:Q", title="triangles", scale=_log(), axis=axis),
-            alt.Y("ns:Q", title="ns a ray", scale=_log(), axis=axis),
+            alt.Y("ns:Q", title="ns per ray", scale=_log(), axis=axis),
             color=marks["color"],
         )
     )
@@ -155,8 +157,8 @@ def _work(marks: dict[str, Any]) -> Spec:
     axis = alt.Axis(format="~s", tickCount=6)
     dots = _points("datum.volumes !== null").mark_point(filled=True, size=80, opacity=0.9)
     dots = dots.encode(
-        alt.X("volumes:Q", title="volumes tested a ray", scale=_log(), axis=axis),
-        alt.Y("ns:Q", title="ns a ray", scale=_log(), axis=axis),
+        alt.X("volumes:Q", title="volumes tested per ray", scale=_log(), axis=axis),
+        alt.Y("ns:Q", title="ns per ray", scale=_log(), axis=axis),
         **marks,
         tooltip=_tooltip("volumes", "tests", "ns"),
     )
@@ -177,7 +179,7 @@ def _log(padding: int = 16) -> alt.Scale:
 
 
 def _marks(drawn: Sequence[Variant]) -> dict[str, Any]:
-    """A variant's colour is that of its method; variants of one colour differ in shape."""
+    """Returns colours and shapes: variants have their method's colour, and differ in shape."""
     colours = [variant.colour.name for variant in drawn]
     shapes = [_SHAPES[colours[:i].count(c) % len(_SHAPES)] for i, c in enumerate(colours)]
     titles = [variant.title for variant in drawn]
@@ -192,9 +194,9 @@ _TIPS = {
     "speed": alt.Tooltip("speed:Q", title="speed over AABB", format=".2f"),
     "build": alt.Tooltip("build:Q", title="build over AABB", format=".2f"),
     "mrays": alt.Tooltip("mrays:Q", title="Mrays/s", format=".2f"),
-    "ns": alt.Tooltip("ns:Q", title="ns a ray", format=".1f"),
-    "volumes": alt.Tooltip("volumes:Q", title="volumes a ray", format=".1f"),
-    "tests": alt.Tooltip("tests:Q", title="triangles a ray", format=".1f"),
+    "ns": alt.Tooltip("ns:Q", title="ns per ray", format=".1f"),
+    "volumes": alt.Tooltip("volumes:Q", title="volumes per ray", format=".1f"),
+    "tests": alt.Tooltip("tests:Q", title="triangles per ray", format=".1f"),
     "triangles": alt.Tooltip("triangles:Q", format=","),
     "front": alt.Tooltip("front:N", title="on the front"),
 }
@@ -208,5 +210,5 @@ def _tooltip(*names: str) -> list[alt.Tooltip]:
 def _spec(chart: alt.Chart | alt.LayerChart, height: int) -> Spec:
     fit = alt.AutoSizeParams(type="fit-x", contains="padding")
     spec = chart.properties(width="container", height=height, autosize=fit).to_dict()
-    del spec["config"]  # the page has one for all
+    del spec["config"]  # the page has one for all charts
     return spec

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What was measured, when, where and with what, in words."""
+"""The text at the head and the end of the page: what was measured, when, where, with what."""
 
 import json
 from collections.abc import Iterable, Sequence
@@ -13,7 +13,7 @@ from sobb.tools.report.results import CALLS, RAYS, Results, Run
 
 
 def lead(results: Results, found: Sequence[Point]) -> dict[str, Any]:
-    """Title, summary, tiles and facts at the head of the page."""
+    """Returns the title, summary, tiles, facts and notes at the head of the page."""
     cases = results.cases
     scenes = {case.scene for case in cases}
     methods = {case.method for case in cases}
@@ -35,7 +35,7 @@ def lead(results: Results, found: Sequence[Point]) -> dict[str, Any]:
 
 
 def runs(results: Results) -> list[dict[str, Any]]:
-    """All runs, the last one last."""
+    """Returns the facts of all runs, in their order."""
     return [
         {
             "title": f"Run {run.run_id}, {_when(run.started)}",
@@ -47,7 +47,7 @@ def runs(results: Results) -> list[dict[str, Any]]:
 
 
 def _tiles(results: Results, found: Sequence[Point]) -> tuple[list[dict[str, str]], str]:
-    """The mean gain of the fastest SOBBs for each kind of rays, and what they cost to build."""
+    """Returns the mean gain of the fastest SOBBs for each kind of rays, and their build's cost."""
     call = next(iter(results.calls()), "")
     speeds: dict[str, dict[str, list[float]]] = {}
     builds: dict[str, list[float]] = {}
@@ -78,7 +78,7 @@ def _notes(results: Results) -> list[str]:
     methods = {case.method for case in results.done}
     notes = []
     if results.cases and not results.done:
-        notes.append("No case was measured: see what they said below.")
+        notes.append("No case was measured; the causes are listed below.")
     if len(methods) == 1:
         notes.append("Only one method was measured, so there is nothing to compare it with.")
     elif methods and "aabb" not in methods:
@@ -86,19 +86,19 @@ def _notes(results: Results) -> list[str]:
     if methods - set(HIERARCHIES):
         notes.append(
             "AABB, SOBB and Embree are whole hierarchies, each with its own kernels. The other "
-            "volumes share one hierarchy and one traversal: their ratios to the AABB are of both, "
-            "volume and traversal; among each other they compare the volumes alone."
+            "volumes share one hierarchy and one traversal. Their ratios to the AABB therefore "
+            "compare volume and traversal together; ratios between them compare volumes alone."
         )
     unfinished = [run for run in results.runs if run.finished is None]
     if unfinished:
         notes.append(
-            "The sweep was not finished: what is not there may not have been measured yet."
+            "The sweep was not finished: cases that are missing may not have been measured yet."
         )
     return notes
 
 
 def _common_facts(all_runs: Sequence[Run]) -> list[tuple[str, str]]:
-    """The facts of all runs together: what differs is listed."""
+    """Returns the facts of all runs together; values that differ are listed."""
     facts: dict[str, list[str]] = {}
     for run in all_runs:
         for name, value in _facts(run):
@@ -121,7 +121,7 @@ def _facts(run: Run) -> list[tuple[str, str]]:
 
 
 def _spec(run: Run) -> str:
-    """The sweep, a line for each of its values."""
+    """Returns the specification of the sweep, with a line for each of its values."""
     try:
         return json.dumps(json.loads(run.spec or ""), indent=1, ensure_ascii=False)
     except ValueError:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How much repetitions of the timed figures differ."""
+"""The section on noise: how much the repetitions of timed figures differ."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ _SHOWN = 8
 
 @dataclass(frozen=True)
 class Variation:
-    """A figure that was repeated, and where it is from."""
+    """A figure that was repeated, with its scene and variant."""
 
     scene: str
     variant: str
@@ -27,7 +27,7 @@ class Variation:
 
 
 def variations(results: Results) -> list[Variation]:
-    """All timed figures that were repeated, the noisiest first."""
+    """Returns all timed figures that were repeated, the noisiest first."""
     title, named = titles(results.done), variants(results.done)
     found = [
         Variation(title[case.case_id], named[case.case_id].title, key, figure, figure.variation)
@@ -39,14 +39,14 @@ def variations(results: Results) -> list[Variation]:
 
 
 def section(found: Sequence[Variation]) -> dict[str, Any]:
-    """What the page says of them."""
+    """Returns the text and the rows of the section."""
     if not found:
         return {"text": "Nothing was measured more than once.", "rows": []}
     typical, high = median(v.variation for v in found), found[len(found) // 20].variation
     text = (
         f"Of {len(found):,} figures that were measured more than once, half vary by less than "
         f"{_percent(typical)} (coefficient of variation of the repetitions), 95 in 100 by less "
-        f"than {_percent(high)}. Ratios nearer to 1 than about twice that say little."
+        f"than {_percent(high)}. A ratio says little if it is nearer to 1 than about twice that."
     )
     rows = [
         {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves on the report: the theme, sorting, the choice of rays and call, charts, sliders.
+// The controls of the report: the theme, sorting, the choice of rays and call, charts, sliders.
 "use strict";
 
-// The theme: the system's, until the button says otherwise.
+// The theme is the system's, until the button changes it.
 const themeButton = document.getElementById("theme");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const isDark = () => (document.documentElement.dataset.theme ?? (dark.matches ? "dark" : "light")) === "dark";
@@ -15,7 +15,7 @@ themeButton.addEventListener("click", () => {
 dark.addEventListener("change", showTheme);
 showTheme();
 
-// Sorting: the headings' buttons; what has no value stays last, the means stay below.
+// The headings' buttons sort the table; cells without a value stay last, the means stay below.
 function compare(a, b) {
   if (a === "" || b === "") return (a === "") - (b === "");
   return Number(a) - Number(b);
@@ -36,7 +36,7 @@ function sort(header) {
   }
 }
 
-// A scene is named in the first of its rows that stand together.
+// Of neighbouring rows of one scene only the first shows its name.
 function markRepeated(rows) {
   rows.forEach((row, i) => {
     const again = i > 0 && rows[i - 1].cells[0].dataset.sort === row.cells[0].dataset.sort;
@@ -50,14 +50,14 @@ for (const header of document.querySelectorAll(".sortable thead th")) {
 
 for (const body of document.querySelectorAll(".sortable tbody")) markRepeated([...body.rows]);
 
-// Sliders.
+// A slider moves the border between its two pictures.
 for (const slider of document.querySelectorAll(".compare input")) {
   const move = () => slider.parentElement.style.setProperty("--at", `${slider.value}%`);
   slider.addEventListener("input", move);
   move();
 }
 
-// Charts: their colours are the page's variables, so they follow the theme, and print, by CSS.
+// The charts' colours are the page's CSS variables, so they follow the theme, and print, as the page does.
 const text = { labelColor: "var(--muted)", titleColor: "var(--ink)", labelFontSize: 12, titleFontSize: 12, titleFontWeight: 500 };
 const config = (width) => ({
   background: "transparent",
@@ -86,7 +86,7 @@ async function drawCharts() {
   return Promise.all([...document.querySelectorAll(".chart")].map(draw));
 }
 
-// The choice of rays and call: charts filter by it, of the tables one a call is shown.
+// Charts are filtered by the choice of rays and call; of the tables, the one of the call is shown.
 function showTable() {
   const { call } = choice();
   for (const table of document.querySelectorAll(".by-call")) table.hidden = table.dataset.call !== call;

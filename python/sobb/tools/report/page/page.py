@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page: what the template shows, and the template filled in."""
+"""Fills the template of the page."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -24,13 +24,13 @@ from sobb.tools.shared.cells import Cell, Column, number
 
 _HERE = Path(__file__).parent
 _HEAT_STOPS = 17
-_BEST_RAYS = ("diffuse1", "diffuse7")  # what the paper is about
+_BEST_RAYS = ("diffuse1", "diffuse7")  # the rays that the paper is about
 
 Values = dict[str, Any]
 
 
 def html(results: Results, pictures: Sequence[Picture]) -> str:
-    """The whole page."""
+    """Returns the whole page."""
     found = points(results)
     drawn = sorted(set(variants(results.done).values()))
     specs: list[charts.Spec] = []
@@ -58,7 +58,7 @@ def html(results: Results, pictures: Sequence[Picture]) -> str:
 
 
 def _first_rays(results: Results) -> str:
-    """The rays that most cases have, of several the best."""
+    """Returns the kind of rays that most cases have; of several, the first of _BEST_RAYS."""
     counts = Counter(
         rays
         for case in results.done
@@ -84,12 +84,12 @@ def _text(name: str) -> Markup:
 
 
 def _vega() -> Markup:
-    """Vega, Vega-Lite and vegaEmbed. In a script nothing may look like its end."""
+    """Returns Vega, Vega-Lite and vegaEmbed, in which nothing looks like a script's end."""
     return Markup(vl_convert.javascript_bundle().replace("</script", r"<\/script"))
 
 
 def _chart(chart: charts.Chart, specs: list[charts.Spec]) -> Values:
-    """A chart whose panels are named by their places among all specs."""
+    """Returns a chart whose panels are named by their places among all specs."""
     first = len(specs)
     specs += [spec for _, spec in chart.panels]
     panels = [(title, first + i) for i, (title, _) in enumerate(chart.panels)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the charts draw: a point for each case, kind of rays and call."""
+"""The data of the charts: a point for each case, kind of rays and call."""
 
 from collections.abc import Iterable, Sequence
 from statistics import geometric_mean
@@ -13,7 +13,7 @@ Point = dict[str, Any]
 
 
 def points(results: Results) -> list[Point]:
-    """All that was traced, with the ratios to AABBs where those were measured too."""
+    """Returns all that was traced, with the ratios to AABBs where these were measured as well."""
     cases, named, compared = results.done, variants(results.done), bases(results.done)
     curve, title = names(cases), titles(cases)
     return [
@@ -50,14 +50,17 @@ def _ratio(case: Case, base: Case | None, key: Key) -> float | None:
 
 
 def _work(case: Case, metric: str, rays: str, call: str) -> float | None:
-    """The work of a ray by that call, or else by single rays."""
+    """Returns the work per ray of this call, or else of single rays."""
     own = case.value(Key(metric, rays, call))
     return case.value(Key(metric, rays, "single")) if own is None else own
 
 
 def gains(found: Iterable[Point]) -> list[Point]:
-    """Of each variant the geometric means of speed and build over the scenes, and whether it is
-    on the Pareto front: no other builds as fast and traces as fast, and one of them faster."""
+    """Returns each variant's geometric means of speed and build time over the scenes.
+
+    `front` tells whether it is on the Pareto front: no other variant builds and traces at least as
+    fast, and one of both faster.
+    """
     groups: dict[tuple[str, str], dict[str, list[Point]]] = {}
     for point in found:
         if point["speed"] and point["build"]:
@@ -76,7 +79,7 @@ def _means(by_variant: Sequence[Sequence[Point]]) -> list[Point]:
             "scenes": len(own),
         }
         for own in by_variant
-        if len(own) == scenes  # a mean over fewer would not compare
+        if len(own) == scenes  # means over different scenes cannot be compared
     ]
     return [mean | {"front": not any(_beats(other, mean) for other in means)} for mean in means]
 

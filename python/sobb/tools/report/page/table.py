@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The paper's table: a row for each variant on each scene, and the means over the scenes."""
+"""The table of the page: a row for each variant on each scene, and means over the scenes."""
 
 import re
 from collections.abc import Sequence
@@ -11,14 +11,14 @@ from sobb.tools.report.results import Case, Key, Results
 from sobb.tools.report.scene import order, titles
 from sobb.tools.shared.cells import Cell, Column, number
 
-# The overhead is the build's beyond that of the AABBs, or what fitting other volumes takes.
+# The overhead is the build time beyond that of AABBs, or the time to fit other volumes.
 _OVERHEAD = "overhead_ms"
 _OF_BUILD = (
     Column("build_ms", "Build [ms]"),
     Column(_OVERHEAD, "Overhead [ms]", base="obb"),
     Column("area_inner", "Area inner nodes", timed=False),
     Column("area_leaves", "Area leaf nodes", timed=False),
-    Column("bytes_per_triangle", "Bytes a triangle", timed=False),
+    Column("bytes_per_triangle", "Bytes per triangle", timed=False),
 )
 
 
@@ -33,7 +33,7 @@ class Row:
 
 @dataclass(frozen=True)
 class Table:
-    """The rows for one kind of call, and the geometric means of the scenes' ratios."""
+    """The rows for one kind of call, and the geometric means of the ratios over the scenes."""
 
     call: str
     columns: list[Column]
@@ -42,7 +42,7 @@ class Table:
 
 
 def tables(results: Results) -> list[Table]:
-    """A table for each kind of call."""
+    """Returns a table for each kind of call."""
     return [_table(results, call) for call in results.calls()]
 
 
@@ -68,12 +68,12 @@ def _table(results: Results, call: str) -> Table:
 
 
 def _short(rays: str) -> str:
-    """diffuse7 as Diffuse 7."""
+    """Spells diffuse7 as Diffuse 7."""
     return re.sub(r"(?<=[a-z])(?=\d)", " ", rays).capitalize()
 
 
 def _value(case: Case, base: Case | None, column: Column, call: str) -> float | None:
-    """A figure; `base`: the case with AABBs."""
+    """Returns a figure of a case; `base` is the case with AABBs that it is compared with."""
     if column.key != _OVERHEAD:
         of_build = column in _OF_BUILD
         return case.value(Key(column.key) if of_build else Key("mrays_s", column.key, call))
@@ -86,7 +86,7 @@ def _value(case: Case, base: Case | None, column: Column, call: str) -> float | 
 
 
 def _cells(group: Sequence[Case], columns: Sequence[Column], call: str) -> dict[str, list[Cell]]:
-    """The cells of one scene's cases, by their ids."""
+    """Returns the cells of one scene's cases, by the cases' ids."""
     cells: dict[str, list[Cell]] = {case.case_id: [] for case in group}
     to_aabb = bases(group)
     for column in columns:
@@ -102,7 +102,7 @@ def _cells(group: Sequence[Case], columns: Sequence[Column], call: str) -> dict[
 
 
 def _means(rows: Sequence[Row], columns: Sequence[Column]) -> list[Row]:
-    """The means of those ratios that every scene has: over fewer scenes they would not compare."""
+    """Returns the means of those ratios that every scene has: others could not be compared."""
     scenes = {row.scene for row in rows}
     means: list[Row] = []
     for variant in sorted({row.variant for row in rows}):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Boxes around the subtrees of a hierarchy: AABB, OBB and SOBB, all as three slabs each."""
+"""Boxes around the subtrees of a hierarchy: AABBs, OBBs and SOBBs, each as three slabs."""
 
 import itertools
 from collections.abc import Iterator
@@ -10,10 +10,9 @@ import numpy as np
 from sobb.surface import normalised
 from sobb.tools.report.pictures.levels import Cut
 
-_FLAT = 1e-3  # of |det|: directions nearly in one plane bound nothing
+_FLAT = 1e-3  # the least |det|: directions nearly in one plane bound nothing
 
-
-TRIANGLES = 12  # of one box's mesh
+TRIANGLES = 12  # in the mesh of one box
 
 
 class Boxes(NamedTuple):
@@ -24,17 +23,17 @@ class Boxes(NamedTuple):
     high: np.ndarray
 
     def edges(self) -> np.ndarray:
-        """The three edges from a corner, as columns: (n, axis, edge)."""
+        """Returns the three edges from a corner, as columns: (n, axis, edge)."""
         return np.linalg.inv(self.normal) * (self.high - self.low)[:, None, :]
 
     def areas(self) -> np.ndarray:
-        """The surface areas, (n,)."""
+        """Returns the surface areas, (n,)."""
         a, b, c = np.moveaxis(self.edges(), 2, 0)
         pairs = ((a, b), (b, c), (c, a))
         return 2 * sum(np.linalg.norm(np.cross(u, v), axis=1) for u, v in pairs)
 
     def mesh(self) -> tuple[np.ndarray, np.ndarray]:
-        """Vertices float32 (8 n, 3), faces uint32 (12 n, 3); TRIANGLES in a row are one box's."""
+        """Returns vertices, float32 (8 n, 3), and faces, uint32 (12 n, 3), TRIANGLES per box."""
         corner = np.linalg.inv(self.normal) @ self.low[:, :, None]
         place = np.array([[i & 1, i >> 1 & 1, i >> 2] for i in range(8)], np.float64).T
         vertices = (corner + self.edges() @ place).transpose(0, 2, 1)
@@ -48,13 +47,15 @@ _FACES = np.array([t for a, b, c, d in _QUADS for t in ((a, b, c), (a, c, d))])
 
 
 def axis_aligned(cut: Cut) -> Boxes:
-    """The axis-aligned boxes of the subtrees' triangles."""
+    """Returns the axis-aligned boxes of the subtrees' triangles."""
     return _around(cut, np.broadcast_to(np.eye(3), (len(cut.first), 3, 3)))
 
 
 def oriented(cut: Cut) -> Boxes:
-    """Oriented boxes: of several frames for each subtree the one with the least area. No exact
-    minimum: that needs the convex hull of each."""
+    """Returns oriented boxes: for each subtree the one with the least area over several frames.
+
+    It is no exact minimum, which would need the convex hull of each subtree.
+    """
     best = axis_aligned(cut)
     least = best.areas()
     for frame in _frames(cut):
@@ -72,8 +73,10 @@ def oriented(cut: Cut) -> Boxes:
 
 
 def skewed(cut: Cut, directions: np.ndarray) -> Boxes:
-    """Skewed boxes from a file's table of directions, (K, 3), by the strategy k²: the narrowest
-    slab, and the two others that make the area least."""
+    """Returns skewed boxes from a file's table of directions, (K, 3), by the strategy k².
+
+    It takes the narrowest slab, and the two others that make the area least.
+    """
     directions = directions.astype(np.float64)
     low, high = _extents(cut, directions)
     width = high - low
@@ -94,8 +97,11 @@ def skewed(cut: Cut, directions: np.ndarray) -> Boxes:
 
 
 def _frames(cut: Cut) -> Iterator[np.ndarray]:
-    """Orthonormal frames, (n, 3, 3) each: the principal axes of the triangles, and, of the largest
-    triangle, its normal with each of its edges."""
+    """Yields orthonormal frames, (n, 3, 3) each.
+
+    They are the principal axes of the triangles, and the normal of the largest triangle with each
+    of its edges.
+    """
     edge = np.roll(cut.corners, -1, axis=1).astype(np.float64) - cut.corners
     normal = np.cross(edge[:, 0], edge[:, 1])
     weight = np.linalg.norm(normal, axis=1)
@@ -111,7 +117,7 @@ def _frames(cut: Cut) -> Iterator[np.ndarray]:
 
 
 def _principal(cut: Cut, weight: np.ndarray) -> np.ndarray:
-    """The axes of the covariance of the triangles' points, by area."""
+    """Returns the axes of the covariance of the triangles' points, weighted by area."""
     middle = cut.corners.mean(axis=1, dtype=np.float64)
     weight = weight + weight.max() * 1e-12 + 1e-300  # where all are degenerate they count alike
     total = np.add.reduceat(weight, cut.first)
@@ -126,7 +132,7 @@ def _principal(cut: Cut, weight: np.ndarray) -> np.ndarray:
 
 
 def _largest(cut: Cut, weight: np.ndarray) -> np.ndarray:
-    """The index of each subtree's largest triangle."""
+    """Returns the index of each subtree's largest triangle."""
     most = np.maximum.reduceat(weight, cut.first)
     owner = cut.owners()
     candidates = np.flatnonzero(weight == most[owner])
@@ -134,14 +140,14 @@ def _largest(cut: Cut, weight: np.ndarray) -> np.ndarray:
 
 
 def _around(cut: Cut, normal: np.ndarray) -> Boxes:
-    """The boxes with these normals, (n, 3, 3), around each subtree's triangles."""
+    """Returns the boxes with these normals, (n, 3, 3), around each subtree's triangles."""
     own = normal.astype(np.float32)[cut.owners()]
     along = np.einsum("tca,tja->tcj", cut.corners, own).reshape(-1, 3)
     return Boxes(normal, *_reach(cut, along))
 
 
 def _extents(cut: Cut, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How far each subtree's triangles reach along directions (K, 3): low and high, (n, K)."""
+    """Returns the extents of each subtree along directions (K, 3): low and high, (n, K)."""
     points = cut.corners.reshape(-1, 3)
     reaches = [_reach(cut, points @ direction) for direction in directions.astype(np.float32)]
     low, high = zip(*reaches, strict=True)
@@ -149,7 +155,7 @@ def _extents(cut: Cut, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _reach(cut: Cut, along: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The least and the largest of each subtree's corners' values, (3 m, ...)."""
+    """Returns the least and the largest value of each subtree's corners, (3 m, ...)."""
     first = cut.first * 3
     low, high = np.minimum.reduceat(along, first), np.maximum.reduceat(along, first)
     return low.astype(np.float64), high.astype(np.float64)

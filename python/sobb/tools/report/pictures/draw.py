@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pictures of a scene: rendered, the work of its rays, and the volumes of two levels."""
+"""Draws the pictures of a scene: rendered, the work of its rays, the volumes of two levels."""
 
 import base64
 import io
@@ -17,7 +17,7 @@ from sobb.tools.render import heat, shading
 from sobb.tools.report.pictures import boxes, levels
 from sobb.view import View
 
-_LEVELS = (13, 17)  # those of the paper's figure
+_LEVELS = (13, 17)  # the levels of the paper's figure
 _QUALITY = 84
 _SEED = 5
 
@@ -26,7 +26,7 @@ Progress = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Heat:
-    """The work of each ray with one kind of volumes: the map, and its mean."""
+    """The work of each ray with one kind of volumes: the heat map, and its mean."""
 
     image: str
     mean: str
@@ -34,7 +34,7 @@ class Heat:
 
 @dataclass(frozen=True)
 class BoxPicture:
-    """The volumes of one kind at a level, and the sum of their areas over the scene box's."""
+    """The volumes of one kind at a level; their area is relative to that of the scene's box."""
 
     name: str
     image: str
@@ -43,6 +43,8 @@ class BoxPicture:
 
 @dataclass(frozen=True)
 class Level:
+    """A level of the hierarchy: its volumes, those that are leaves, and a picture per kind."""
+
     level: int
     volumes: int
     leaves: int
@@ -51,7 +53,7 @@ class Level:
 
 @dataclass(frozen=True)
 class Picture:
-    """All pictures of a scene as data: addresses; or the problem that left it without."""
+    """All pictures of a scene as data: addresses, or the problem that prevented them."""
 
     title: str
     problem: str = ""
@@ -59,7 +61,7 @@ class Picture:
     triangles: int = 0
     rendered: str = ""
     heats: dict[str, Heat] = field(default_factory=dict)  # "aabb", "sobb"
-    scale: int = 0  # what counts as much work
+    scale: int = 0  # the work at the top of the scale
     levels: list[Level] = field(default_factory=list)
 
 
@@ -71,7 +73,7 @@ def draw(
     size: tuple[int, int],
     progress: Progress,
 ) -> Picture:
-    """Draws a scene; one that cannot be loaded or built is a picture that says why."""
+    """Draws a scene; the picture of one that cannot be loaded or built says why."""
     try:
         with Scene.load(source, views=cameras) as scene:
             if view >= len(scene.views):
@@ -105,7 +107,7 @@ def _draw(
 
 
 def _levels(scene: Scene, view: View, size: tuple[int, int], progress: Progress) -> list[Level]:
-    """The levels of one hierarchy, built for AABBs: only the volumes differ, as in the paper."""
+    """Draws the levels of one hierarchy: only the volumes differ, as in the paper."""
     drawn = []
     half = max(size[0] // 2, 1), max(size[1] // 2, 1)
     with build(scene, volume="sobb", table="spread", width=4) as hierarchy:
@@ -129,14 +131,14 @@ def _levels(scene: Scene, view: View, size: tuple[int, int], progress: Progress)
 
 
 def _boxes(drawn: boxes.Boxes, view: View, size: tuple[int, int]) -> str:
-    """The boxes as solids; a box has its colour in every picture of its level."""
+    """Draws boxes as solids; a subtree's box has one colour in every picture of its level."""
     colours = _colours(len(drawn.low)).repeat(boxes.TRIANGLES, axis=0)
     with build(*drawn.mesh(), volume="aabb") as hierarchy:
         return _address(shading.shaded(hierarchy, view, *size, colours=colours))
 
 
 def _colours(count: int) -> np.ndarray:
-    """Colours of one lightness or nearly, linear light, float32 (count, 3)."""
+    """Returns random hues of nearly one lightness: linear light, float32 (count, 3)."""
     random = np.random.default_rng(_SEED)
     hue = random.random((count, 1)) * 2 * np.pi
     wave = np.cos(hue - np.array([0, 2, 4]) * np.pi / 3)
@@ -144,7 +146,7 @@ def _colours(count: int) -> np.ndarray:
 
 
 def _address(picture: np.ndarray) -> str:
-    """A picture, uint8 (height, width, 3), as the address of an image within the page."""
+    """Encodes a picture, uint8 (height, width, 3), as a data: address."""
     data = io.BytesIO()
     Image.fromarray(picture).save(data, "webp", quality=_QUALITY, method=5)
     return "data:image/webp;base64," + base64.b64encode(data.getvalue()).decode()

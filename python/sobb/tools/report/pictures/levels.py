@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The subtrees of a hierarchy at a level, as if its nodes had two children each.
+"""Cuts a hierarchy into its subtrees at a level, as if its nodes had two children each.
 
 Files have nodes of 4 or 8 children. A node with c of them stands for log2(c) levels of a binary
 hierarchy, so a child's level is its parent's plus log2(c).
@@ -13,24 +13,24 @@ from sobb import format
 
 _LEAF = 1 << 15
 _TRIANGLES = 0x3F
-# A step of a 4-wide node is 2 levels at most: the first node above this is the nearest.
+# A node of 4 children steps at most 2 levels, so the first child beyond level - 1 is the nearest.
 _HALF_STEP = 1.0
 
 
 class Cut(NamedTuple):
-    """The subtrees at one level, and the leaves that end above it."""
+    """The subtrees at one level, with the leaves that end above it."""
 
     corners: np.ndarray  # float32 (m, 3, 3), the triangles of all subtrees, subtree by subtree
-    first: np.ndarray  # (n,), where each subtree's triangles begin
+    first: np.ndarray  # (n,), the first triangle of each subtree
     leaves: int  # how many of the subtrees are leaves
 
     def owners(self) -> np.ndarray:
-        """The subtree of each triangle, (m,)."""
+        """Returns the subtree of each triangle, (m,)."""
         return np.repeat(np.arange(len(self.first)), np.diff(self.first, append=len(self.corners)))
 
 
 def cut(file: format.Parts, level: float) -> Cut:
-    """Cuts the hierarchy at a level; every triangle is in one of the subtrees."""
+    """Cuts the hierarchy at a level; every triangle is in exactly one of the subtrees."""
     blocks: list[np.ndarray] = []  # (first block, blocks, subtree) of each leaf
     found = leaves_found = 0
     nodes = np.zeros(1, np.int64)
@@ -59,7 +59,7 @@ def cut(file: format.Parts, level: float) -> Cut:
 def _triangles(
     file: format.Parts, leaves: np.ndarray, subtrees: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The triangles by subtree, and where each subtree's begin."""
+    """Returns the triangles, subtree by subtree, and the first of each subtree."""
     first, size, owner = leaves[np.argsort(leaves[:, 2], kind="stable")].T
     step = np.arange(size.sum()) - np.repeat(np.cumsum(size) - size, size)
     block = np.repeat(first, size) + step
