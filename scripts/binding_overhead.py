@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the Python binding costs: a million rays through it and by the same call in C, in one
-process and in turns, and how fast a hierarchy is pickled (docs/measuring.md).
+"""Measures what the Python binding costs (docs/measuring.md).
+
+A million rays are traced through the binding and by the same call in C, in turns, in one process;
+then a hierarchy is pickled.
 
 usage: .venv/bin/python scripts/binding_overhead.py [REPETITIONS]
 """
@@ -26,12 +28,12 @@ def seconds(call: Callable[[], object], clock: Callable[[], float]) -> float:
     start = clock()
     result = call()
     end = clock()
-    del result  # giving memory back is not timed
+    del result  # freeing memory is not timed
     return end - start
 
 
 def tracing(scene: sobb.Scene, coherent: bool, repetitions: int) -> None:
-    """Closest hits on one thread by processor time, each way over the C call into `out`."""
+    """Prints the processor time of closest hits on one thread, and its ratio to the C call's."""
     hierarchy, info = sobb.build(scene), scene.info
     if coherent:
         rays, _ = make.primary(scene.views[0], SIDE, SIDE)
@@ -60,7 +62,7 @@ def tracing(scene: sobb.Scene, coherent: bool, repetitions: int) -> None:
 
 
 def pickling(scene: sobb.Scene, repetitions: int) -> None:
-    """Gigabytes of hierarchy a second, by the wall clock."""
+    """Prints how many gigabytes of hierarchy are pickled per second, by the wall clock."""
     hierarchy = sobb.build(scene)
     size = hierarchy.info.bytes
     print(f"pickling, {size / 1e6:.0f} MB")

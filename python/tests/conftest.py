@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests share: a small mesh, its hierarchies, rays around it, the command line."""
+"""Fixtures for all tests: a small mesh, its hierarchies, rays around it, the command line."""
 
 import signal
 import subprocess
@@ -14,21 +14,21 @@ from sobb import rays as make
 
 SEED = 20250607
 
-# A shell's background jobs ignore interrupts, and what they start inherits it: tests that interrupt
-# a command would wait for its end.
+# A shell's background jobs ignore interrupts, and so do the processes that they start: tests that
+# interrupt a command would wait for its end.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
 def rng():
-    """Random numbers of a seed that a failing test prints."""
+    """A generator of random numbers; a failing test prints its seed."""
     print(f"seed {SEED}")
     return np.random.default_rng(SEED)
 
 
 @pytest.fixture(scope="session")
 def mesh(rng):
-    """(vertices, faces) of 500 thin triangles at all angles."""
+    """500 thin triangles at all angles: (vertices, faces)."""
     centre = rng.uniform(-1, 1, (500, 1, 3))
     vertices = (centre + rng.normal(0, 0.1, (500, 3, 3))).astype(np.float32).reshape(-1, 3)
     return vertices, np.arange(1500, dtype=np.uint32).reshape(-1, 3)
@@ -47,7 +47,7 @@ def rays(rng):
 
 @pytest.fixture
 def cli():
-    """Runs `python -m sobb` with arguments; returns the finished process."""
+    """A function that runs `python -m sobb` with arguments, and returns the finished process."""
 
     def run(*arguments):
         command = [sys.executable, "-m", "sobb", *map(str, arguments)]

@@ -19,7 +19,7 @@ def count(text: str) -> int:
     """A whole number that a uint32 holds."""
     value = _whole(text)
     if not 0 <= value < 1 << 32:
-        raise ArgumentTypeError(f"{text} is out of range")
+        raise ArgumentTypeError(f"{text} is not from 0 to 2^32 - 1")
     return value
 
 
@@ -74,14 +74,15 @@ def add_cameras(parser: argparse.ArgumentParser, otherwise: str) -> None:
 
 
 def add_threads(parser: argparse.ArgumentParser, default: int, what: str) -> None:
-    """Adds --threads; the help says `what` may use them."""
-    chosen = "0 by default" if default == 0 else f"{default} by default"
+    """Adds --threads; `what` is the beginning of its help."""
+    every = "one per processor that this process may use"
+    chosen = f"by default {every}" if default == 0 else f"{default} by default, 0 for {every}"
     parser.add_argument(
         "--threads",
         type=count,
         default=default,
         metavar="N",
-        help=f"{what}; 0 for one per processor that this process may use; {chosen}",
+        help=f"{what}; {chosen}",
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a module offers that is a command.
+"""The members that make a module a command.
 
 The command line imports the modules of all commands at every start. They therefore import what a
 command works with, and above all the packages of its extra, in `run` alone.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Wrong input of every sort: an exception that says what, never a crash."""
+"""Wrong input of every kind raises an exception that names the cause; nothing crashes."""
 
 import pickle
 

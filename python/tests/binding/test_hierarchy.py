@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Building, tracing, saving and opening."""
+"""Building, tracing, saving, opening and pickling a hierarchy."""
 
 import copy
 import gc

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The notebooks of python/examples run to their end, and end in a chart."""
+"""The notebooks of python/examples run without an error, and end with a chart."""
 
 from pathlib import Path
 

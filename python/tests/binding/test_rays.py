@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Rays to trace: their order, their directions, where they begin."""
+"""Rays to trace: their order, directions and origins."""
 
 import numpy as np
 import pytest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Python side's structs are the header's, by a C compiler's word."""
+"""The structs of Python have the layout that a C or C++ compiler gives those of the headers."""
 
 import ctypes
 import re

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A second reader of .sobb files, from docs/format.md alone: the standard library, no NumPy, no
-libsobb. Proves every rule that the document states, in its order."""
+"""A second reader of .sobb files, written from docs/format.md alone.
+
+It uses the standard library, and neither NumPy nor libsobb. It checks every rule that the document
+states, in the document's order.
+"""
 
 import math
 import struct
@@ -37,11 +40,11 @@ class Section:
 
 @dataclass
 class Node:
-    slab: list  # [j][min or max][child], of every lane
+    slab: list  # [j][min or max][child], for unused children, too
     reference: list
     basis: list
     meta: list
-    bits: bytes  # as they lie in the file
+    bits: bytes  # the bytes in the file
 
     @property
     def child_count(self):

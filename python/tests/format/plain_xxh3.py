@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""XXH3-64, seed 0, of the xxHash specification, in plain Python: slow, and independent."""
+"""XXH3-64 with seed 0 in plain Python, written from the xxHash specification: slow, independent."""
 
 import struct
 

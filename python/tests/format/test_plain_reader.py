@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The library and the reader written from docs/format.md alone say the same of every file."""
+"""The library and the reader written from docs/format.md alone agree on every file."""
 
 import random
 from pathlib import Path
@@ -19,7 +19,7 @@ BAD = [line.split(" ", 2) for line in (GOLDEN / "bad" / "expected.txt").read_tex
 
 
 def agree(data):
-    """Holds every field of the plain reader against the library's."""
+    """Asserts that every field of the plain reader equals the library's."""
     plain = SobbFile(data)
     with sobb.Hierarchy.from_bytes(data) as hierarchy:
         parts, info = format.parts(hierarchy.bytes), hierarchy.info
@@ -57,7 +57,7 @@ def agree(data):
 
 
 def statuses(data):
-    """What both readers say: "OK", or the end of a SOBB_ERROR_FORMAT_ name."""
+    """Returns the verdicts of both readers: "OK", or the end of a SOBB_ERROR_FORMAT_ name."""
     try:
         SobbFile(data)
         plain = "OK"
@@ -93,7 +93,7 @@ def test_agree_on_what_is_built(mesh, volume, k, width, quality):
 
 
 def test_agree_on_damage():
-    """Bytes changed at random, with checksums made to fit, so that other rules are reached."""
+    """Bytes are changed at random, and checksums made to fit, so that other rules are reached."""
     seed = 20261123
     print(f"seed {seed}")
     rng = random.Random(seed)
@@ -112,7 +112,7 @@ def test_agree_on_damage():
 
 
 def test_checksum_is_the_one_of_the_specification():
-    """Of lengths on both sides of every change of method; values by libxxhash 0.8."""
+    """The lengths lie on both sides of every change of method; the values are libxxhash 0.8's."""
     data = bytes((i * i * 31 + i * 7 + 3) & 255 for i in range(1025))
     expected = {
         0: 0x2D06800538D394C2,

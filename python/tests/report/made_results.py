@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files of results for tests of the report: of any methods and scenes, one with a hostile name."""
+"""Makes files of results for tests of the report: any methods and scenes, one of a hostile name."""
 
 import random
 
 from sobb.tools.sweep.store import Store
 
 HOSTILE = "<img src=x onerror=alert(1)>"
-# Method -> its options k, strategy, table_kind; how many times AABBs' speed; build time likewise.
+# Method -> its options k, strategy, table_kind; its speed and its build time over those of AABBs.
 METHODS = {
     "aabb": (None, None, None, 1.0, 1.0),
     "sobb": (64, "k2", "fitted", 1.5, 1.25),
@@ -19,8 +19,10 @@ FAILURES = {"crashed": "signal 11 <script>alert(2)</script>", "timeout": "gave u
 
 
 def write(path, methods=METHODS, scenes=SCENES, failures=FAILURES):
-    """Writes results: each scene at 1 and 4 times its triangles, with each method; three
-    repetitions that differ by few per cent."""
+    """Writes results of each scene, at 1 and 4 times its triangles, with each method.
+
+    The three repetitions differ by a few per cent.
+    """
     made = random.Random(7)
     cases, samples = [], []
     for scene in scenes:

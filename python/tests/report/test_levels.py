@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Levels of a hierarchy, and the boxes drawn around their subtrees."""
+"""The levels of a hierarchy, and the boxes drawn around their subtrees."""
 
 import itertools
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A small file of results with made-up figures, always the same, for tests of what reads them."""
+"""Makes a small file of results with made-up figures, always the same, for tests of readers."""
 
 import itertools
 import json
@@ -20,8 +20,11 @@ REPETITIONS = 5
 
 
 def write(path: Path, speed: float = 1.0, noise: float = 0.02, seed: int = 7) -> Path:
-    """Three scenes, three methods, two subdivisions, one failed case besides. speed: scales all
-    rays a second; noise: the samples' standard deviation, relative."""
+    """Writes results of three scenes, three methods and two subdivisions, and one failed case.
+
+    speed: multiplies all rays per second.
+    noise: the relative standard deviation of the samples.
+    """
     rng = np.random.default_rng(seed)
     run = Run(
         "example", "Example CPU", 8, "0.1.0", "3.13.5", "0" * 40, "3.11.7",

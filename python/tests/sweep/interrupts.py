@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sweeps that are interrupted, and what must be the same whether they were or not."""
+"""Interrupts sweeps, and reads the rows that must be the same with and without interruptions."""
 
 import subprocess
 import sys
@@ -8,12 +8,12 @@ from pathlib import Path
 
 
 def rows(path):
-    """The cases with how they ended, and which figures are kept of each."""
+    """Returns the cases with their status, and the figures that are kept of each."""
     import duckdb
 
     with duckdb.connect(str(path), read_only=True) as connection:
         cases = connection.execute("SELECT case_id, status FROM cases ORDER BY ALL").fetchall()
-        # sobb_bench_volumes repeats a row as often as it fits its time
+        # sobb_bench_volumes repeats a row as often as its time allows
         kept = connection.execute(
             "SELECT case_id, rays, call, metric, if(method = 'obb', 0, repetition) AS repetition "
             "FROM results GROUP BY ALL ORDER BY ALL"

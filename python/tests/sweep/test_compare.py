@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Comparing two files of results: verdicts, exit codes, cases that only one has."""
+"""Two files of results compared: verdicts, exit codes, cases that only one has."""
 
 import json
 

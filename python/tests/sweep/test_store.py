@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The file of results: what is written is read, both of a case or none, and clear errors."""
+"""The file of results: rows are read as written, a case is kept whole or not, errors are clear."""
 
 import pytest
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sweeps: what a file of them may say, what is kept, and that interruptions lose nothing."""
+"""Sweeps: the keys of their files, the cases they make, and that interruptions lose nothing."""
 
 import os
 import resource
@@ -127,7 +127,7 @@ def test_limits(tmp_path, code, status):
 
 
 def test_turns(tmp_path):
-    """A second process waits until the first gives the turn back."""
+    """A second process waits until the first releases the lock."""
     code = "from sobb.tools.shared import host_lock\nwith host_lock.turn(): print('mine')"
     with host_lock.turn():
         other = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE)
@@ -152,7 +152,7 @@ def test_interrupted_sweeps_end_with_the_same_rows(cli, tmp_path, toml):
 
 
 def _files_up_to(size):
-    """No file of a process grows beyond that: a disk that is full."""
+    """Lets no file of this process grow beyond `size` bytes, as a full disk does."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The command line: exit codes 0, 1, 2, and what is said where."""
+"""The command line: exit codes 0, 1 and 2, output, messages, and files."""
 
 import json
 import signal

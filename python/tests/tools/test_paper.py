@@ -47,8 +47,11 @@ CONTEXT = {
 
 
 def document(speed=lambda method: 1.0, without=()):
-    """What the program writes, of methods whose rays are `speed` times as fast as AABBs' and
-    whose boxes are as much smaller. Times: build 100 ms, overheads 10 ms, 20 ms, … by method."""
+    """Returns what the program writes.
+
+    A method's rays are `speed` times as fast as AABBs', and its areas as many times smaller. The
+    build takes 100 ms; the overheads are 10 ms, 20 ms and so on, by method.
+    """
     entries = []
 
     def add(name, median, **counters):
@@ -77,7 +80,7 @@ def measured(name="city", **arguments):
 
 
 def cells(group, key):
-    """Method -> its cell in a column."""
+    """Returns the cell of each method in a column."""
     column = [c.key for c in COLUMNS].index(key)
     return {method: row[column] for method, row in group.rows.items()}
 
@@ -309,7 +312,7 @@ def test_an_interrupt_keeps_what_is_done(program, tmp_path):
 
 
 def test_a_real_quick_run(cli, tmp_path):
-    """The one slow test: all methods on six small scenes."""
+    """This is the one slow test: all methods on six small scenes."""
     start = time.monotonic()
     done = cli("paper", "--quick", "--out", tmp_path)
     assert done.returncode == 0, done.stderr

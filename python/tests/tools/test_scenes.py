@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes by their names, as the tables take them."""
+"""Scenes by name: files, built-in scenes, refined and turned ones, and the default ones."""
 
 import pytest
 

@@ -21,7 +21,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         type=arguments.fraction,
         default=0.05,
         metavar="FRACTION",
-        help="call no smaller change of speed faster or slower; %(default)s by default",
+        help="the least change of speed that counts as faster or slower; %(default)s by default",
     )
     parser.add_argument("--json", action="store_true", help="print all rows as one JSON object")
 

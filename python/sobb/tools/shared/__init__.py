@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What several commands use: scenes by name, benchmark programs, tables, colours, files."""
+"""Parts that several commands use: scenes by name, benchmark programs, tables, colours, files."""

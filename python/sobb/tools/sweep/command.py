@@ -17,7 +17,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         nargs="?",
         metavar="TOML",
         help="a file that says what to measure (docs/sweeps.md); --scenes, --methods, --rays, "
-        "--size and --repetitions take the place of what it says",
+        "--size and --repetitions replace its keys, and --scenes is needed without a file",
     )
     parser.add_argument("--scenes", nargs="+", metavar="SCENE", help=arguments.NAMED_SCENE)
     parser.add_argument(
@@ -56,8 +56,8 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--dask",
         metavar="ADDRESS",
-        help="measure on the workers of the Dask scheduler at tcp://HOST:PORT; by default on this "
-        "machine",
+        help="measure on the workers of the Dask scheduler at tcp://HOST:PORT; by default this "
+        "machine measures",
     )
 
 
