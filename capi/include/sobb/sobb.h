@@ -412,9 +412,9 @@ enum { SOBB_FREE = 0, SOBB_OCCLUDED = 1, SOBB_OCCLUDED_INVALID = 255 };
  * @return SOBB_ERROR_INVALID_ARGUMENT or SOBB_ERROR_UNSUPPORTED_CPU. A ray that is not valid gets
  *         SOBB_INVALID and is counted; the others are traced all the same.
  * Without counts, 256 rays and more are traced together, in tasks of 2048, in whichever of three
- * ways the call finds the fastest, which take about a megabyte a thread of the hierarchy's
- * allocator while it runs. Without that memory, and else, rays are traced one by one, or 64 at a
- * time with SOBB_TRACE_COHERENT, to the same hits. Cost: about O(log n) a ray.
+ * modes the call finds the fastest. They take about a megabyte per thread of the hierarchy's
+ * allocator while the call runs. Without that memory, and in all other cases, rays are traced one
+ * by one, or 64 at a time with SOBB_TRACE_COHERENT, to the same hits. Cost: about O(log n) per ray.
  */
 SOBB_API sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
                                     uint64_t count, sobb_hit* hits,

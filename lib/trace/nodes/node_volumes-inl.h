@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a class must offer for a traversal to go through its nodes: the children's volumes, and the
 // ray's side of their tests.
+//
+// The room nodes/ is a ray against the children of a node: slabs clip its interval
+// (slab_clip-inl.h), with one set of coefficients per direction of the table (ray_table-inl.h) or,
+// along the frame, in registers (frame_clip-inl.h, frame_ray-inl.h); file_volumes-inl.h has the
+// file's nodes, stack_key.h, child_order.h and prefetch-inl.h what every traversal does with the
+// children met. It knows ray/.
 #if defined(SOBB_TRACE_NODES_NODE_VOLUMES_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_NODES_NODE_VOLUMES_INL_H
 #undef SOBB_TRACE_NODES_NODE_VOLUMES_INL_H

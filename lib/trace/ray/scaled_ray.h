@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // A ray as the slab tests want it: relative to the scene's centre, and a direction that is very
 // short or long scaled so that the largest component lies in [1, 2), t scaled with it.
+//
+// The room ray/ is a ray before it meets anything: whether it is valid (validity.h), scaled (this
+// file), its coefficients for slabs (slab_coefficients-inl.h), its form for the triangle test
+// (triangle_ray.h), and all of these for as many rays at once as a vector has lanes
+// (ray_setup-inl.h). It knows trace.h and no other room.
 #pragma once
 
 #include <hwy/base.h>

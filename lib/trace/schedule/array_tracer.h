@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces the tasks of one array of rays, each in the mode that the call has found to be the
 // fastest.
+//
+// The room schedule/ chooses among the modes while an array is traced: fastest_mode.h remembers
+// what each took, dealt_rays.h lets them be compared fairly. It knows the kernels by trace.h alone.
 #pragma once
 
 #include <algorithm>

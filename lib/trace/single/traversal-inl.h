@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One ray through the nodes, nearest child first, whatever their volumes and width.
+//
+// The room single/ traces rays one at a time. It is the shortest traversal, the one to read first,
+// and the one that the others' left-over rays take. It knows ray/, nodes/ and triangles/.
 #if defined(SOBB_TRACE_SINGLE_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_SINGLE_TRAVERSAL_INL_H
 #undef SOBB_TRACE_SINGLE_TRAVERSAL_INL_H

@@ -10,6 +10,10 @@
 //     weights, and t, are those of a triangle whose vertices moved by at most half an ulp of their
 //     distance from the ray, even for one seen edge-on: the hit point never leaves the volumes
 //     that bound the triangle by more than their offsets allow (slab_coefficients-inl.h).
+//
+// The room triangles/ is a ray against the triangles of a leaf: this test, its form in lanes
+// (watertight_lanes-inl.h), four triangles at once (watertight_ray-inl.h), lists of candidates
+// (candidates-inl.h), and the seam at which a candidate becomes a hit (acceptance.h). It knows ray/.
 #pragma once
 
 #include <hwy/base.h>
