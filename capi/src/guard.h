@@ -11,7 +11,7 @@
 #include "base/float_control.h"
 #include "sobb/sobb.h"
 
-// Sets this thread's message; lives in libsobb, so that libsobb_scene shares it.
+// Sets this thread's message. It lives in libsobb, so that libsobb_scene shares it.
 extern "C" SOBB_API void sobb_internal_set_error(const char* message);
 
 namespace sobb {
@@ -39,14 +39,14 @@ sobb_status guard(Body&& body) noexcept {
   }
 }
 
-// A pointer argument that may not be NULL.
+// Fails where a pointer argument is NULL that may not be.
 inline void require(const void* pointer, const char* name) {
   if (pointer == nullptr) fail(SOBB_ERROR_INVALID_ARGUMENT, "%s is NULL", name);
 }
 
-// The caller's option struct as this library knows it: a member counts where the caller's
-// struct_size covers it, the rest is zero. Bytes that we do not know must be zero. NULL is all
-// zero. Options begin with `uint32_t struct_size`.
+// Reads the caller's option struct as this library knows it: a member counts where the caller's
+// struct_size covers it, the rest is zero. Bytes that this version does not know must be zero. NULL
+// stands for all zero. Options begin with `uint32_t struct_size`.
 template <class Options>
 Options read_options(const Options* options, const char* name) {
   Options known{};
@@ -67,7 +67,8 @@ Options read_options(const Options* options, const char* name) {
   return known;
 }
 
-// Hands an information struct to the caller, up to the size that it knows; struct_size stays.
+// Hands an information struct to the caller, up to the size that the caller knows; struct_size
+// stays.
 template <class Info>
 void write_info(const Info& known, Info* info, const char* name) {
   require(info, name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A failure inside the library: a status and a message that names the place and the cause.
+// Error is a failure inside the library: a status, and a message that names the place and the
+// cause.
 #pragma once
 
 #include <cstdarg>
@@ -12,7 +13,7 @@
 
 namespace sobb {
 
-// Thrown by every stage, caught at the C boundary (capi/src/guard.h), never beyond it.
+// Every stage throws it, the C boundary catches it (capi/src/guard.h); it never goes beyond that.
 class Error : public std::runtime_error {
  public:
   Error(sobb_status status, const std::string& message)
@@ -21,7 +22,7 @@ class Error : public std::runtime_error {
   sobb_status status;
 };
 
-// Room for a path of the longest kind and what is wrong with it.
+// A message has room for the longest path and what is wrong with it.
 inline constexpr size_t kLongestMessage = 4096 + 512;
 
 // Throws an Error with a printf-style message.

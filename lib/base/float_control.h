@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floating-point control word that all results rest on.
+// FloatControl sets the floating-point control word that all results rest on.
 #pragma once
 
 #include <xmmintrin.h>
 
 namespace sobb {
 
-// While one lives on a thread: round to nearest, denormals kept, exceptions masked. Restores what
-// it found.
+// While one lives on a thread, results are rounded to nearest, denormals are kept and exceptions
+// are masked. It restores what it found.
 class FloatControl {
  public:
   FloatControl() : found_(_mm_getcsr()) {

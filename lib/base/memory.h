@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The memory that one call (and the hierarchy it returns) may take: limit, caller's allocator,
-// peak.
+// Memory is what one call, and the hierarchy that it returns, may take: it keeps the limit, the
+// caller's allocator and the peak.
 #pragma once
 
 #include <atomic>
@@ -19,16 +19,17 @@ class Memory final : public std::pmr::memory_resource {
   // `allocator` may be null for the library's own; it is copied. A `limit` of 0 is none.
   explicit Memory(const sobb_allocator* allocator = nullptr, uint64_t limit = 0);
 
-  // Counts bytes that another library holds on our behalf (Embree's builder) against the limit;
-  // negative gives back. Returns false where the limit is exceeded; the bytes are counted all the
-  // same, since that library has them already.
+  // Counts bytes that another library (Embree's builder) holds on our behalf against the limit; a
+  // negative number gives them back. Returns false where the limit is exceeded; the bytes are
+  // counted all the same, since that library has them already.
   bool count_foreign(int64_t bytes);
 
   uint64_t held() const { return held_.load(std::memory_order_relaxed); }
   uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }
   uint64_t limit() const { return limit_; }
 
-  // The limit binds the call that was given it; what the hierarchy keeps afterwards is free of it.
+  // Lifts the limit at the end of the call that was given it: what the hierarchy keeps is free of
+  // it.
   void lift_limit() { limit_ = 0; }
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's progress callback: one thread at a time, never falling, and its wish to cancel.
+// Progress calls the caller's progress callback, from one thread at a time and with values that
+// never fall, and passes on its wish to cancel.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +14,19 @@ namespace sobb {
 
 class Progress {
  public:
-  // `callback` may be null; `what` is under way, for the message where it is cancelled.
+  // `callback` may be null. `what` names the work in the message that it was cancelled.
   Progress(int (*callback)(void* user, double fraction), void* user, const char* what = "the build")
       : callback_(callback), user_(user), what_(what) {}
 
-  // All reports to come are of this part of the whole. Not while others report.
+  // Makes all reports to come count within this part of the whole. No other thread may report
+  // meanwhile.
   void set_part(double begin, double end) {
     part_begin_ = begin;
     part_end_ = end;
   }
 
   // Reports that the stage covering [begin, end] of the whole is `fraction` done. Returns false
-  // once the caller wants to stop. A report behind another is told as that one.
+  // once the caller wants to stop. A report that is behind an earlier one repeats that one.
   bool report(double begin, double end, double fraction) {
     if (callback_ == nullptr) return true;
     const std::scoped_lock lock(mutex_);
@@ -34,7 +36,7 @@ class Progress {
     return !cancelled_;
   }
 
-  // The same, throwing where the caller wants to stop.
+  // Reports likewise, and throws where the caller wants to stop.
   void check(double begin, double end, double fraction) {
     if (!report(begin, end, fraction)) fail(SOBB_ERROR_CANCELLED, "%s was cancelled", what_);
   }
@@ -56,7 +58,7 @@ class ProgressStage {
   ProgressStage(Progress& progress, double begin, double end, uint64_t total)
       : progress_(progress), begin_(begin), end_(end), total_(total) {}
 
-  // So many items more are done; throws where the caller wants to stop.
+  // Reports that so many more items are done; throws where the caller wants to stop.
   void advance(uint64_t items) {
     const uint64_t done = done_.fetch_add(items, std::memory_order_relaxed) + items;
     progress_.check(begin_, end_, static_cast<double>(done) / static_cast<double>(total_));

@@ -16,7 +16,7 @@ class Loop {
  public:
   Loop(void (*body)(void*, uint64_t), void* context) : body_(body), context_(context) {}
 
-  // A body above one that failed no longer matters: the rest of a long loop goes by at once.
+  // A body above one that failed no longer matters, so that the rest of a long loop ends at once.
   void run(uint64_t index) noexcept {
     if (index > failed_.load(std::memory_order_relaxed)) return;
     const FloatControl control;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parallel loops: on TBB, on the caller's thread pool, or on the calling thread alone.
+// Scheduler runs parallel loops: on TBB, on the caller's thread pool, or on the calling thread
+// alone.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +12,15 @@
 namespace sobb {
 
 // Thread-safe. Loop bodies run with the default floating-point control word. An exception from a
-// body is rethrown by the loop, once all bodies below it have ended; of several, the one with the
-// lowest index, so that a message does not depend on the threads. Loops allocate nothing.
+// body is rethrown by the loop, once all bodies below it have ended; of several exceptions, that of
+// the lowest index, so that a message does not depend on the threads. Loops allocate nothing.
 class Scheduler {
  public:
   // `threads` as in sobb_build_options: 1 is serial, 0 all that TBB gives. `callback` may be null.
   Scheduler(uint32_t threads, const sobb_scheduler* callback)
       : threads_(threads), callback_(callback) {}
 
-  // body(i) once for each i < count.
+  // Calls body(i) once for each i < count.
   template <class Body>
   void for_each(uint64_t count, Body&& body) const {
     using Plain = std::remove_reference_t<Body>;
@@ -27,7 +28,7 @@ class Scheduler {
         count, [](void* context, uint64_t i) { (*static_cast<Plain*>(context))(i); }, &body);
   }
 
-  // body(begin, end) over consecutive ranges of at most `grain` items that cover [0, count).
+  // Calls body(begin, end) for consecutive ranges of at most `grain` items that cover [0, count).
   // The ranges depend on `count` and `grain` alone.
   template <class Body>
   void for_ranges(uint64_t count, uint64_t grain, Body&& body) const {

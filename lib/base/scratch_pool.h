@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blocks of memory of one size for the tasks of a loop: as many as tasks run at once.
+// ScratchPool lends blocks of memory of one size to the tasks of a loop: as many as run at once.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace sobb {
 
-// Thread-safe. Owns the blocks, which must all be back when it goes.
+// Thread-safe. It owns the blocks, which must all be back when it is destroyed.
 class ScratchPool {
  public:
-  // Blocks of at least a pointer's size, aligned to 64 bytes.
+  // Blocks have at least a pointer's size and are aligned to 64 bytes.
   ScratchPool(std::pmr::memory_resource& memory, size_t block_size)
       : memory_(memory), block_size_(block_size) {}
   ~ScratchPool() {
@@ -25,7 +25,7 @@ class ScratchPool {
   ScratchPool(const ScratchPool&) = delete;
   ScratchPool& operator=(const ScratchPool&) = delete;
 
-  // One block until it goes; null where there is no memory.
+  // Holds one block while it lives; null where there is no memory.
   class Lease {
    public:
     explicit Lease(ScratchPool& pool) : pool_(pool), block_(pool.take()) {}

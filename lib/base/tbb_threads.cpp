@@ -22,14 +22,14 @@ struct Arena {
   tbb::task_arena arena;
 };
 
-// TBB's memory, as its arenas are: no call's, and no caller's.
+// Arenas and their list take TBB's memory, which belongs to no call and no caller.
 using Arenas = std::list<Arena, tbb::cache_aligned_allocator<Arena>>;
 
 // Arenas that nobody is in. They are kept for ever, as many as were ever used at once: an arena
-// that is destroyed while a worker is about to leave it is not freed (TBB 2021.8: 30 KB a build).
+// that is destroyed while a worker is about to leave it is not freed (TBB 2021.8: 30 KB per build).
 class IdleArenas {
  public:
-  // A list of one, of `size` threads.
+  // Makes a list of one arena, of `size` threads.
   Arenas take(int size) {
     Arenas taken;
     {
@@ -52,14 +52,14 @@ class IdleArenas {
   Arenas arenas_;
 };
 
-// Never destroyed: at the process's end TBB may have gone before.
+// They are never destroyed: at the process's end TBB may be gone already.
 IdleArenas& idle_arenas() {
   alignas(IdleArenas) static std::byte room[sizeof(IdleArenas)];
   static IdleArenas& arenas = *new (room) IdleArenas;
   return arenas;
 }
 
-// An arena for a while, given back however the while ends.
+// Borrows an arena, and gives it back however the scope ends.
 class BorrowedArena {
  public:
   explicit BorrowedArena(int size) : taken_(idle_arenas().take(size)) {}
@@ -79,7 +79,8 @@ void within_arena(uint32_t threads, const Body& body) {
     body();
     return;
   }
-  // TBB never runs more than its limit, complains of a larger arena, and allocates all its slots.
+  // TBB never runs more threads than its limit, complains about a larger arena, and allocates all
+  // of an arena's slots.
   const size_t limit =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   BorrowedArena arena(static_cast<int>(std::min<size_t>(threads, limit)));

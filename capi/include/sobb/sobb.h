@@ -55,7 +55,7 @@ extern "C" {
 
 /* ------------------------------------------------------------------------------- status -- */
 
-/** What a call came to. Values are fixed for ever; new causes get new ones. */
+/** The outcome of a call. Values are fixed for ever; new causes get new ones. */
 typedef enum sobb_status {
   SOBB_OK = 0,
 
@@ -165,7 +165,7 @@ typedef struct sobb_triangles {
   const float* vertices;   /**< x, y, z of vertex i at byte i * vertex_stride */
   uint64_t vertex_count;   /**< at most 2^32 */
   uint64_t vertex_stride;  /**< bytes from vertex to vertex, a multiple of 4; 0 means 12 */
-  const uint32_t* indices; /**< three a triangle, tightly packed */
+  const uint32_t* indices; /**< three per triangle, tightly packed */
   uint64_t triangle_count; /**< 1 to SOBB_MAX_TRIANGLES */
 } sobb_triangles;
 
@@ -243,7 +243,7 @@ typedef struct sobb_build_options {
  * @return SOBB_ERROR_INVALID_ARGUMENT, _EMPTY, _INDEX (the message names the triangle),
  *         _NOT_FINITE, _TOO_LARGE (the vertex), _OUT_OF_MEMORY, _MEMORY_LIMIT, _CANCELLED,
  *         _UNSUPPORTED_CPU, _INTERNAL.
- * Cost: O(n log n); about 60 bytes a triangle are kept, see docs/c-api.md for the peak.
+ * Cost: O(n log n); about 60 bytes per triangle are kept, see docs/c-api.md for the peak.
  */
 SOBB_API sobb_status sobb_build(const sobb_triangles* triangles, const sobb_build_options* options,
                                 sobb_hierarchy** out);
@@ -397,7 +397,7 @@ typedef struct sobb_trace_options {
   uint32_t flags;                  /**< SOBB_TRACE_ bits; never change the result */
   uint32_t threads;                /**< at most this many; 1 starts none; 0 as many as TBB gives */
   uint32_t isa;                    /**< a sobb_isa; never changes the result */
-  sobb_count* counts;              /**< one a ray, or NULL; asks for the single-ray kernel */
+  sobb_count* counts;              /**< one per ray, or NULL; asks for the single-ray kernel */
   uint64_t* invalid_rays;          /**< receives how many rays were SOBB_INVALID, or NULL */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
 } sobb_trace_options;

@@ -7,7 +7,8 @@
 
 namespace {
 
-// Plain storage: setting a message never allocates, so it can report that memory ran out.
+// The storage is plain: setting a message never allocates, so that it can report that memory ran
+// out.
 thread_local char last_error[sobb::kLongestMessage] = "";
 
 }  // namespace

@@ -28,7 +28,8 @@ struct sobb_hierarchy {
 
 namespace sobb {
 
-// A handle of its own memory, with one reference. Lifts the memory's limit: that was the call's.
+// Makes a handle in its own memory, with one reference. Lifts the memory's limit, which was the
+// call's.
 sobb_hierarchy* make_hierarchy(std::shared_ptr<Memory> memory, Image image, const FileView& view);
 
 }  // namespace sobb

@@ -19,7 +19,7 @@ struct sobb_scene {
 
 namespace {
 
-// Element `index` of an array of the scene's.
+// Returns element `index` of an array of the scene.
 template <class Element>
 const Element& element(const std::vector<Element>& array, uint64_t index, const char* what) {
   if (index >= array.size()) {
