@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/highway_targets.h"
+#include "base/instruction_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bounds/bounds_kernels.cpp"
@@ -89,7 +89,7 @@ TripleChoice or_frame(const BasisTable& table, const float* width, const TripleC
 }
 
 const BoundsKernels& bounds_kernels(sobb_isa isa) {
-  return isa == SOBB_ISA_AVX2 ? N_AVX2::target_bounds_kernels() : N_SSE4::target_bounds_kernels();
+  return SOBB_DISPATCH(isa, target_bounds_kernels)();
 }
 
 }  // namespace sobb

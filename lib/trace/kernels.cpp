@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "base/highway_targets.h"
+#include "base/instruction_sets.h"
 #include "trace/trace.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -119,7 +119,7 @@ Tracer::Tracer(const FileView& view)
       frame_only(view.header->width == 4 ? all_on_frame<4>(view) : all_on_frame<8>(view)) {}
 
 const TraceKernels& trace_kernels(sobb_isa isa) {
-  return isa == SOBB_ISA_AVX2 ? N_AVX2::target_trace_kernels() : N_SSE4::target_trace_kernels();
+  return SOBB_DISPATCH(isa, target_trace_kernels)();
 }
 
 }  // namespace sobb

@@ -2,7 +2,7 @@
 // The nodes of every volume, compiled for every instruction set.
 #include "volumes/nodes.h"
 
-#include "base/highway_targets.h"
+#include "base/instruction_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volumes/nodes.cpp"
@@ -20,30 +20,34 @@ HWY_BEFORE_NAMESPACE();
 namespace sobb::study {
 namespace HWY_NAMESPACE {
 
-struct NodesFactory {
-  template <int W>
-  static std::unique_ptr<Hierarchy::Nodes> make(const SharedTopology& topology,
+template <int W>
+std::unique_ptr<Hierarchy::Nodes> make_nodes_of(const SharedTopology& topology,
                                                 const ConvertSettings& settings, sobb_isa isa) {
-    const auto of = [&](auto volume) -> std::unique_ptr<Hierarchy::Nodes> {
-      return std::make_unique<NodesOf<decltype(volume), W>>(topology, settings, isa);
-    };
-    switch (settings.method.volume) {
-      case VolumeKind::kAabb:
-        return of(Aabb());
-      case VolumeKind::kDop14:
-        return of(Dop14());
-      case VolumeKind::kObb:
-        return of(Obb());
-      case VolumeKind::kSobbIndexed:
-        return of(SobbIndexed());
-      case VolumeKind::kSobbDirect:
-        break;
-    }
-    if (settings.method.k <= 64) return of(SobbDirect<32>());
-    if (settings.method.k <= 128) return of(SobbDirect<64>());
-    return of(SobbDirect<128>());
+  const auto of = [&](auto volume) -> std::unique_ptr<Hierarchy::Nodes> {
+    return std::make_unique<NodesOf<decltype(volume), W>>(topology, settings, isa);
+  };
+  switch (settings.method.volume) {
+    case VolumeKind::kAabb:
+      return of(Aabb());
+    case VolumeKind::kDop14:
+      return of(Dop14());
+    case VolumeKind::kObb:
+      return of(Obb());
+    case VolumeKind::kSobbIndexed:
+      return of(SobbIndexed());
+    case VolumeKind::kSobbDirect:
+      break;
   }
-};
+  if (settings.method.k <= 64) return of(SobbDirect<32>());
+  if (settings.method.k <= 128) return of(SobbDirect<64>());
+  return of(SobbDirect<128>());
+}
+
+std::unique_ptr<Hierarchy::Nodes> make_nodes(const SharedTopology& topology,
+                                             const ConvertSettings& settings, sobb_isa isa) {
+  return settings.width == 2 ? make_nodes_of<2>(topology, settings, isa)
+                             : make_nodes_of<8>(topology, settings, isa);
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace sobb::study
@@ -55,16 +59,8 @@ namespace sobb::study {
 std::unique_ptr<Hierarchy::Nodes> Hierarchy::Nodes::make(const SharedTopology& topology,
                                                          const ConvertSettings& settings,
                                                          sobb_isa isa) {
-  // The analyzer loses sight of what the factories return.
-  // NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
-  if (isa == SOBB_ISA_AVX2) {
-    return settings.width == 2 ? N_AVX2::NodesFactory::make<2>(topology, settings, isa)
-                               : N_AVX2::NodesFactory::make<8>(topology, settings, isa);
-  }
-  return settings.width == 2 ? N_SSE4::NodesFactory::make<2>(topology, settings, isa)
-                             : N_SSE4::NodesFactory::make<8>(topology, settings, isa);
+  return SOBB_DISPATCH(isa, make_nodes)(topology, settings, isa);
 }
-// NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
 }  // namespace sobb::study
 #endif

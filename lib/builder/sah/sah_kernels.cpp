@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/highway_targets.h"
+#include "base/instruction_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "builder/sah/sah_kernels.cpp"
@@ -127,7 +127,7 @@ void place_sides(const SahNode& node, const uint64_t count[2], SahNode side[2]) 
 }
 
 const SahKernels& sah_kernels(sobb_isa isa) {
-  return isa == SOBB_ISA_AVX2 ? N_AVX2::target_sah_kernels() : N_SSE4::target_sah_kernels();
+  return SOBB_DISPATCH(isa, target_sah_kernels)();
 }
 
 }  // namespace sobb
