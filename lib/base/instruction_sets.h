@@ -11,7 +11,7 @@
 // Calls X(argument, sobb_isa, Highway's target, our name, title, Embree's name) for every set, from
 // the least to the best. The name is that of command lines and of the environment's SOBB_ISA, the
 // title is for people, and Embree's name is what its device option `isa` calls the same set.
-#define SOBB_FOR_EACH_ISA(X, argument)                          \
+#define SOBB_FOR_EACH_ISA(X, argument)                         \
   X(argument, SOBB_ISA_SSE4, SSE4, "sse4", "SSE4.2", "sse4.2") \
   X(argument, SOBB_ISA_AVX2, AVX2, "avx2", "AVX2", "avx2")
 

@@ -108,12 +108,44 @@ SOBB_API uint32_t sobb_version(void);
 
 /* ---------------------------------------------------------------------- host's services -- */
 
-/** Instruction sets of the kernels. Results do not depend on the choice, only speed does. */
+/**
+ * Instruction sets of the kernels. Results do not depend on the choice, only speed does. The sets
+ * are the values 1 to sobb_isa_count(), so a program needs no list of its own:
+ *
+ *     for (uint32_t isa = 1; isa <= sobb_isa_count(); ++isa) puts(sobb_isa_title(isa));
+ */
 typedef enum sobb_isa {
-  SOBB_ISA_BEST = 0, /**< the environment's SOBB_ISA (`sse4`, `avx2`) if set, else the best */
+  SOBB_ISA_BEST = 0, /**< the one that the environment's SOBB_ISA names if set, else the best */
   SOBB_ISA_SSE4 = 1, /**< SSE4.2, 128-bit vectors; the least that the library runs on */
   SOBB_ISA_AVX2 = 2  /**< AVX2 and FMA, 256-bit vectors */
 } sobb_isa;
+
+/**
+ * The number of instruction sets that the library has kernels for, whether or not this processor
+ * has them (sobb_resolve_isa() tells). Thread-safe, constant.
+ */
+SOBB_API uint32_t sobb_isa_count(void);
+
+/**
+ * The name of a sobb_isa on command lines and in the environment's SOBB_ISA, such as
+ * "avx2"; "best" for SOBB_ISA_BEST, "unknown" for a value that is no sobb_isa. A static string,
+ * never NULL. Thread-safe, O(1).
+ */
+SOBB_API const char* sobb_isa_name(uint32_t isa);
+
+/**
+ * The name of a sobb_isa for people, such as "SSE4.2"; "best" and "unknown" as sobb_isa_name()
+ * has them. A static string, never NULL. Thread-safe, O(1).
+ */
+SOBB_API const char* sobb_isa_title(uint32_t isa);
+
+/**
+ * The value that a name of sobb_isa_name() stands for, such as one from a command line.
+ * @param name "best" or the name of a set, in lower case.
+ * @param out the value; it is not resolved, and this processor may lack the set.
+ * @return SOBB_ERROR_INVALID_ARGUMENT for any other name; the message lists the names. Thread-safe.
+ */
+SOBB_API sobb_status sobb_isa_from_name(const char* name, sobb_isa* out);
 
 /**
  * Resolves SOBB_ISA_BEST (or checks another) on this processor.

@@ -126,11 +126,4 @@ sobb_status sobb_get_info(const sobb_hierarchy* hierarchy, sobb_info* info) {
   });
 }
 
-sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out) {
-  return guard([&] {
-    require(out, "out");
-    *out = sobb::resolve_isa(static_cast<uint32_t>(isa));
-  });
-}
-
 }  // extern "C"
