@@ -9,9 +9,9 @@
 
 #include "bounds/area.h"
 #include "bounds/bounds_kernels.h"
-#include "bounds/each_isa.h"
 #include "bounds/same_bits.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -164,7 +164,7 @@ TEST(Basis, EachStrategyFindsWhatItDescribes) {
       float area[4] = {};
       for (const sobb_strategy strategy : kStrategies) {
         const BasisChoice expected = choose_scalar(table, gram, strategy);
-        for (const sobb_isa isa : each_isa()) {
+        for (const sobb_isa isa : supported_isas()) {
           const BasisChoice choice = bounds_kernels(isa).choose(table.basis, gram, strategy);
           ASSERT_EQ(choice.basis, expected.basis)
               << "seed " << kSeed << " k " << k << " round " << round << " strategy " << strategy;
@@ -184,7 +184,7 @@ TEST(Basis, EachStrategyFindsWhatItDescribes) {
 TEST(Basis, EqualAreasGoToTheLowestIndices) {
   const Table table(64);
   Gram zero = {};
-  for (const sobb_isa isa : each_isa()) {
+  for (const sobb_isa isa : supported_isas()) {
     for (const sobb_strategy strategy : kStrategies) {
       const BasisChoice choice = bounds_kernels(isa).choose(table.basis, zero, strategy);
       EXPECT_EQ(choice.basis, kAxesBasis) << "strategy " << strategy;
@@ -255,7 +255,7 @@ TEST(Basis, GramIsTheSameFromEveryInstructionSet) {
     const Kdop kdop = random_kdop(random, table);
     Gram expected = {};
     bounds_kernels(SOBB_ISA_SSE4).add_to_gram(kdop, 0.3F, 1.7F, expected);
-    for (const sobb_isa isa : each_isa()) {
+    for (const sobb_isa isa : supported_isas()) {
       Gram gram = {};
       bounds_kernels(isa).add_to_gram(kdop, 0.3F, 1.7F, gram);
       for (uint32_t i = 0; i < kMaxDirections; ++i)

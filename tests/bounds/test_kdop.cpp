@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bounds/bounds_kernels.h"
-#include "bounds/each_isa.h"
 #include "bounds/same_bits.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -83,7 +83,7 @@ double allowed_slack(const DirectionTable& table, uint32_t k, const Cloud& cloud
 
 void check(const Cloud& cloud, const DirectionTable& table, const std::string& what) {
   const Kdop kdop = fit(cloud, table, SOBB_ISA_SSE4);
-  for (const sobb_isa isa : each_isa()) {
+  for (const sobb_isa isa : supported_isas()) {
     const Kdop other = fit(cloud, table, isa);
     ASSERT_TRUE(same_bits(kdop.lower, other.lower) && same_bits(kdop.upper, other.upper))
         << what << " isa " << isa;

@@ -10,8 +10,8 @@
 
 #include "bounds/area.h"
 #include "bounds/bounds_kernels.h"
-#include "bounds/each_isa.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -125,7 +125,7 @@ TripleChoice try_all(const Table& table, const std::vector<float>& width, sobb_s
 void check(const Table& table, const std::vector<float>& width, const std::string& what) {
   for (const sobb_strategy strategy : {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}) {
     const TripleChoice expected = try_all(table, width, strategy);
-    for (const sobb_isa isa : each_isa()) {
+    for (const sobb_isa isa : supported_isas()) {
       const TripleChoice choice =
           bounds_kernels(isa).choose_one(table.basis, width.data(), strategy);
       ASSERT_EQ(choice.area, expected.area) << what << " strategy " << strategy << " isa " << isa;

@@ -11,6 +11,7 @@
 #include "builder/sampled_triangle.h"
 #include "builder/topology/topology.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -223,10 +224,13 @@ TEST(Topology, LargeTrianglesAreToldFromSmallOnes) {
 TEST(Topology, IsTheSameForAnyInstructionSet) {
   for (const Soup& soup : {random_soup(18, 20'000, 0.3), needle_soup(19, 6'000)}) {
     for (const sobb_quality quality : {SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
-      const Tree best(soup, quality, 1);
-      const Tree least(soup, quality, 1, SOBB_ISA_SSE4);
-      EXPECT_TRUE(same(best.topology, best.topology.root(), least.topology, least.topology.root()))
-          << soup.name << " quality " << quality;
+      const Tree expected(soup, quality, 1);
+      for (const sobb_isa isa : supported_isas()) {
+        const Tree tree(soup, quality, 1, isa);
+        EXPECT_TRUE(
+            same(expected.topology, expected.topology.root(), tree.topology, tree.topology.root()))
+            << soup.name << " quality " << quality << ", " << sobb_isa_title(isa);
+      }
     }
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capi/every_call.h"
+#include "support/supported_isas.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -48,9 +49,7 @@ void check_calls(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& 
                  const std::vector<sobb_hit>& expected, const std::string& what) {
   std::vector<sobb_hit> hits(rays.size());
   std::vector<uint8_t> occluded(rays.size());
-  for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-    sobb_isa resolved;
-    if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
+  for (const sobb_isa isa : supported_isas()) {
     for (const uint32_t flags : {0U, static_cast<uint32_t>(SOBB_TRACE_COHERENT)}) {
       const std::string call =
           what + " isa " + std::to_string(isa) + " flags " + std::to_string(flags);

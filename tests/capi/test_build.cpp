@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "capi/handles.h"
+#include "support/supported_isas.h"
 #include "support/thread_pool.h"
 
 namespace sobb::test {
@@ -44,6 +45,10 @@ TEST(Build, GivesTheSameBytesHoweverItIsRun) {
         sobb_build_options options = build_options(volume, quality, 1);
         options.isa = SOBB_ISA_SSE4;
         const std::string expected = bytes_of(build_soup(soup, options));
+        for (const sobb_isa isa : supported_isas()) {
+          options.isa = isa;
+          EXPECT_TRUE(bytes_of(build_soup(soup, options)) == expected) << sobb_isa_title(isa);
+        }
         options.isa = SOBB_ISA_BEST;
         options.progress = Threads::note;
         options.progress_user = &threads;

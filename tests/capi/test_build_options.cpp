@@ -50,7 +50,7 @@ TEST(BuildOptions, BadValuesAreNamed) {
   expect([](auto& o) { o.k = 6; }, "build options: k is 6");
   expect([](auto& o) { o.width = 2; }, "build options: width is 2");
   expect([](auto& o) { o.width = 0xFFFFFFFF; }, "build options: width is 4294967295");
-  expect([](auto& o) { o.isa = 3; }, "isa is 3, not a sobb_isa");
+  expect([](auto& o) { o.isa = 0xFFFFFFFF; }, "isa is 4294967295, not a sobb_isa");
   expect([](auto& o) { o.struct_size = 0; }, "build options: struct_size is 0");
   expect([](auto& o) { o.struct_size = 3; }, "build options: struct_size is 3");
 }

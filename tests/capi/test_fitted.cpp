@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "capi/handles.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -57,6 +58,10 @@ TEST_P(Fitted, GivesTheSameBytesHoweverItIsRun) {
     sobb_build_options options = fitted_options(quality);
     options.isa = SOBB_ISA_SSE4;
     const std::string expected = bytes_of(build_soup(GetParam(), options));
+    for (const sobb_isa isa : supported_isas()) {
+      options.isa = isa;
+      EXPECT_TRUE(bytes_of(build_soup(GetParam(), options)) == expected) << sobb_isa_title(isa);
+    }
     options.isa = SOBB_ISA_BEST;
     for (const uint32_t threads : {1, 3, 8}) {
       options.threads = threads;

@@ -13,6 +13,7 @@
 #include "capi/handles.h"
 #include "capi/random_bases.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -117,9 +118,7 @@ class Packets : public testing::TestWithParam<uint32_t> {
   void expect_agreement(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays,
                         const std::string& what) {
     const std::vector<sobb_hit> expected = trace(hierarchy, rays);
-    for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-      sobb_isa resolved;
-      if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
+    for (const sobb_isa isa : supported_isas()) {
       sobb_trace_options options = trace_options(SOBB_TRACE_COHERENT);
       options.isa = isa;
       const std::vector<sobb_hit> hits = trace(hierarchy, rays, options);

@@ -218,7 +218,7 @@ TEST_P(Rays, BadArgumentsAreRefused) {
   EXPECT_EQ(sobb_intersect(box, rays, 1, hits, &options), SOBB_ERROR_INVALID_ARGUMENT);
   EXPECT_STREQ(sobb_last_error(), "trace options: flags are 0x2");
   options = trace_options();
-  options.isa = 9;
+  options.isa = sobb_isa_count() + 1;
   EXPECT_EQ(sobb_intersect(box, rays, 1, hits, &options), SOBB_ERROR_INVALID_ARGUMENT);
   options = trace_options();
   options.struct_size = 2;

@@ -16,6 +16,7 @@
 
 #include "ray_sets.h"
 #include "sobb/scene.h"
+#include "support/supported_isas.h"
 
 namespace sobb::test {
 namespace {
@@ -145,9 +146,7 @@ TEST_P(Scenes, AreTheSameEveryWay) {
       const Hierarchy hierarchy = build(k == 0 ? SOBB_VOLUME_AABB : SOBB_VOLUME_SOBB, k, width);
       ASSERT_TRUE(hierarchy);
       const std::string what = "k " + std::to_string(k) + " width " + std::to_string(width);
-      for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-        sobb_isa resolved;
-        if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
+      for (const sobb_isa isa : supported_isas()) {
         const std::string way = what + " isa " + std::to_string(isa);
         expect_same(trace(hierarchy.get(), isa, 0, 1, rays_), way);
         expect_same(trace(hierarchy.get(), isa, SOBB_TRACE_COHERENT, 3, rays_), way + " packets");

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "support/supported_isas.h"
+
 namespace sobb::test {
 namespace {
 
@@ -13,15 +15,6 @@ constexpr uint32_t kPacket = 16;
 
 void require(sobb_status status) {
   if (status != SOBB_OK) throw std::runtime_error(sobb_last_error());
-}
-
-std::vector<uint32_t> instruction_sets() {
-  std::vector<uint32_t> sets;
-  for (const sobb_isa isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-    sobb_isa resolved;
-    if (sobb_resolve_isa(isa, &resolved) == SOBB_OK) sets.push_back(isa);
-  }
-  return sets;
 }
 
 // A host's scheduler that deals tasks to its threads in turn, so that all have some.
@@ -106,10 +99,12 @@ Handle build_every_way(const Soup& scene, const Shape& shape, uint32_t quality) 
     options.threads = threads;
     check(build_dealt(scene, options));
   }
-  options.isa = SOBB_ISA_SSE4;
-  for (const uint32_t threads : {1, 8}) {
-    options.threads = threads;
-    check(build(scene, options));
+  for (const sobb_isa isa : supported_isas()) {
+    options.isa = isa;
+    for (const uint32_t threads : {1, 8}) {
+      options.threads = threads;
+      check(build(scene, options));
+    }
   }
   return first;
 }
@@ -130,7 +125,7 @@ std::vector<sobb_hit> trace_every_way(const Soup& scene, const std::vector<Handl
   options.threads = 1;
   const Hits expected = trace_array(hierarchies[0], rays, options);
   for (const Handle& hierarchy : hierarchies) {
-    for (const uint32_t isa : instruction_sets()) {
+    for (const sobb_isa isa : supported_isas()) {
       options.isa = isa;
       for (const uint32_t threads : {1U, 8U}) {
         options.threads = threads;

@@ -7,6 +7,7 @@
 
 #include "format/small_file.h"
 #include "sobb/sobb.h"
+#include "support/supported_isas.h"
 
 namespace sobb {
 namespace {
@@ -37,7 +38,7 @@ bool trace(std::span<const std::byte> bytes, const std::vector<sobb_ray>& rays) 
   if (sobb_open_memory(bytes.data(), bytes.size(), &open, &hierarchy) != SOBB_OK) return false;
   std::vector<sobb_hit> hits(rays.size());
   std::vector<uint8_t> occluded(rays.size());
-  for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_BEST}) {
+  for (const sobb_isa isa : test::supported_isas()) {
     for (const uint32_t flags : {0, static_cast<int>(SOBB_TRACE_COHERENT)}) {
       sobb_trace_options options = {};
       options.struct_size = sizeof options;

@@ -13,6 +13,7 @@
 #include "format/small_file.h"
 #include "sobb/sobb.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 
 namespace sobb {
 namespace {
@@ -55,7 +56,7 @@ TEST(FormatDepth, DeepestFilesAreTracedAlike) {
           hit_count += expected[i].primitive == 0 ? 1 : 0;
         }
         EXPECT_GE(hit_count, count * 9 / 10);
-        for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_BEST}) {
+        for (const sobb_isa isa : test::supported_isas()) {
           for (const uint32_t flags : {0U, static_cast<uint32_t>(SOBB_TRACE_COHERENT)}) {
             SCOPED_TRACE(std::to_string(width) + " wide, turn " + std::to_string(turn) + ", isa " +
                          std::to_string(isa) + ", flags " + std::to_string(flags));

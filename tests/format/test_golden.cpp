@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sobb/sobb.h"
+#include "support/supported_isas.h"
 
 namespace sobb {
 namespace {
@@ -52,7 +53,7 @@ void expect_hits(const sobb_hierarchy* hierarchy, const std::vector<sobb_ray>& r
   std::vector<sobb_ray> many;
   for (int i = 0; i < 8; ++i) many.insert(many.end(), rays.begin(), rays.end());
   std::vector<sobb_hit> hits(many.size());
-  for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_BEST}) {
+  for (const sobb_isa isa : test::supported_isas()) {
     for (const uint32_t flags : {0u, static_cast<uint32_t>(SOBB_TRACE_COHERENT)}) {
       for (const size_t count : {rays.size(), many.size()}) {
         sobb_trace_options options = {};

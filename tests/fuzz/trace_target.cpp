@@ -10,6 +10,7 @@
 #include "fuzz/mend.h"
 #include "fuzz/targets.h"
 #include "sobb/sobb.h"
+#include "support/supported_isas.h"
 
 namespace sobb::fuzz {
 namespace {
@@ -130,9 +131,7 @@ void trace(Bytes bytes) {
   FileHeader header;
   std::memcpy(&header, file.data(), sizeof header);
   Tracer tracer(hierarchy, header);
-  for (const uint32_t isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-    sobb_isa resolved;
-    if (sobb_resolve_isa(static_cast<sobb_isa>(isa), &resolved) != SOBB_OK) continue;
+  for (const sobb_isa isa : test::supported_isas()) {
     tracer.arrays(isa, 0, false);
     tracer.arrays(isa, 0, true);
     tracer.arrays(isa, SOBB_TRACE_COHERENT, false);

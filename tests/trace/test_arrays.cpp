@@ -19,6 +19,7 @@
 #include "support/hostile_rays.h"
 #include "support/scratch.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 #include "support/thread_pool.h"
 
 namespace sobb::test {
@@ -125,9 +126,7 @@ void expect_hits(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& 
                  const std::vector<sobb_hit>& expected, const std::string& what,
                  const sobb_trace_options* options = nullptr) {
   SCOPED_TRACE(what);
-  for (const sobb_isa isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-    sobb_isa resolved;
-    if (sobb_resolve_isa(isa, &resolved) != SOBB_OK) continue;
+  for (const sobb_isa isa : supported_isas()) {
     SCOPED_TRACE("isa " + std::to_string(isa));
     if (options == nullptr) expect_hits_of_modes(isa, hierarchy, rays, count, expected);
     if (testing::Test::HasFatalFailure()) return;

@@ -11,6 +11,7 @@
 
 #include "format/layout.h"
 #include "support/scratch.h"
+#include "support/supported_isas.h"
 #include "trace/trace.h"
 #include "trace/wave/push_table.h"
 
@@ -76,9 +77,7 @@ TEST(Wave, VisitsTheLargestLeaf) {
   const sobb_ray beside = {{0, 0, 5}, 0, {1, 0, -1}, kInfinity};
   std::vector<sobb_ray> rays(101, down);
   for (size_t i = 0; i < rays.size(); i += 3) rays[i] = beside;
-  for (const sobb_isa isa : {SOBB_ISA_SSE4, SOBB_ISA_AVX2}) {
-    sobb_isa resolved;
-    if (sobb_resolve_isa(isa, &resolved) != SOBB_OK) continue;
+  for (const sobb_isa isa : supported_isas()) {
     const TraceKernels& kernels = trace_kernels(isa);
     std::vector<sobb_hit> hits(rays.size());
     std::vector<uint8_t> occluded(rays.size());

@@ -126,9 +126,7 @@ void place_sides(const SahNode& node, const uint64_t count[2], SahNode side[2]) 
   side[1].begin = node.begin + side[0].count + side[0].room;
 }
 
-const SahKernels& sah_kernels(sobb_isa isa) {
-  return SOBB_DISPATCH(isa, target_sah_kernels)();
-}
+const SahKernels& sah_kernels(sobb_isa isa) { return SOBB_DISPATCH(isa, target_sah_kernels)(); }
 
 }  // namespace sobb
 #endif

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "builder/build.h"
 #include "support/soups.h"
+#include "support/supported_isas.h"
 #include "volumes/hierarchy.h"
 
 namespace sobb::study {
@@ -25,13 +26,6 @@ std::vector<Soup> soups() {
           test::placed(test::random_soup(5, 1000), 1e-6, 0),
           test::placed(test::sliver_soup(6, 1000), 1e6, 3e7),
           test::placed(test::random_soup(7, 1000), 1, 1000)};
-}
-
-std::vector<sobb_isa> isas() {
-  std::vector<sobb_isa> result = {SOBB_ISA_SSE4};
-  sobb_isa resolved;
-  if (sobb_resolve_isa(SOBB_ISA_AVX2, &resolved) == SOBB_OK) result.push_back(SOBB_ISA_AVX2);
-  return result;
 }
 
 class Study : public testing::TestWithParam<Method> {
@@ -53,7 +47,7 @@ TEST_P(Study, HitsAreTheOraclesAndNoVertexLeaks) {
               SOBB_OK);
     const SharedTopology topology = share(soup);
     for (const uint32_t width : {2U, 8U}) {
-      for (const sobb_isa isa : isas()) {
+      for (const sobb_isa isa : test::supported_isas()) {
         SCOPED_TRACE(soup.name + ", width " + std::to_string(width) + ", isa " +
                      std::to_string(isa));
         const Hierarchy hierarchy(topology, {GetParam(), width, SOBB_STRATEGY_K2, isa}, serial_);
@@ -79,7 +73,7 @@ TEST_P(Study, AreasAndWorkDoNotDependOnTheWay) {
     std::vector<sobb_hit> hits(rays.size());
     std::vector<sobb_count> counts(rays.size());
     first.intersect(rays.data(), rays.size(), hits.data(), counts.data(), serial_);
-    for (const sobb_isa isa : isas()) {
+    for (const sobb_isa isa : test::supported_isas()) {
       const Hierarchy other(topology, {GetParam(), width, SOBB_STRATEGY_K2, isa}, parallel_);
       EXPECT_EQ(other.areas(parallel_).inner, first.areas(serial_).inner);
       EXPECT_EQ(other.areas(parallel_).leaf, first.areas(serial_).leaf);
