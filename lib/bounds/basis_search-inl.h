@@ -27,9 +27,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
+#include "base/simd/mask_bits-inl.h"
 #include "bounds/basis_table.h"
 #include "bounds/bounds_kernels.h"
 
@@ -40,6 +42,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Rows are padded to multiples of eight (BasisTable::stride()), which is the most lanes that divide
+// them.
 using Tag = hn::CappedTag<float, 8>;
 
 template <class Volumes>
@@ -87,7 +91,7 @@ class BasisSearch {
     if (hn::AllFalse(d, hn::Le(least, hn::Set(d, half_area_)))) return;
     least = hn::MinOfLanes(d, least);
     for (uint32_t c = 0; c < table_.stride(); c += hn::Lanes(d)) {
-      const uint64_t found = bits(hn::Eq(half_areas(c), least));
+      const uint32_t found = mask_bits(d, hn::Eq(half_areas(c), least));
       if (found != 0) return take(hn::GetLane(least), code_of(a, b, c + lowest(found)));
     }
   }
@@ -118,7 +122,7 @@ class BasisSearch {
     }
     least = hn::MinOfLanes(d, least);
     for (uint32_t i = 0; i < table_.count(); i += hn::Lanes(d)) {
-      const uint64_t found = bits(hn::Eq(hn::LoadU(d, value + i), least));
+      const uint32_t found = mask_bits(d, hn::Eq(hn::LoadU(d, value + i), least));
       if (found != 0) return i + lowest(found);
     }
     return 0;
@@ -130,22 +134,14 @@ class BasisSearch {
     const Tag d;
     for (uint32_t group = 0; group < table_.stride(); group += hn::Lanes(d)) {
       const auto within = hn::Le(hn::Load(d, bound + group), hn::Set(d, half_area_));
-      for (uint64_t left = bits(within); left != 0; left &= left - 1) {
+      for (uint32_t left = mask_bits(d, within); left != 0; left &= left - 1) {
         const uint32_t i = group + lowest(left);
         if (bound[i] <= half_area_) body(i);
       }
     }
   }
 
-  static uint64_t bits(hn::Mask<Tag> mask) {
-    uint8_t bytes[8] = {};
-    hn::StoreMaskBits(Tag(), mask, bytes);
-    return bytes[0];
-  }
-
-  static uint32_t lowest(uint64_t bits) {
-    return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(bits));
-  }
+  static uint32_t lowest(uint32_t bits) { return static_cast<uint32_t>(std::countr_zero(bits)); }
 
   // A triple as a number: compared, its lowest index counts first.
   static uint32_t code_of(uint32_t a, uint32_t b, uint32_t c) {

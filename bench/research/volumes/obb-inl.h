@@ -26,7 +26,7 @@ using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
 // and the product err by u |p| and 3 u |p| at most, and |p| is within the radius.
 inline void extents_along(const Tables& tables, const TrianglesBelow& below,
                           const Direction normal[3], float lower[3], float upper[3]) {
-  const hn::CappedTag<float, 4> d;
+  const hn::CappedTag<float, 4> d;  // a block's triangles
   const hn::RebindToUnsigned<decltype(d)> du;
   using V = hn::Vec<decltype(d)>;
   V low[3];

@@ -26,6 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Tag4 = hn::FixedTag<float, 4>;
 using Int4 = hn::FixedTag<int32_t, 4>;
+// Boxes and references are eight words; wider vectors would reach past them.
 using Tag8 = hn::CappedTag<float, 8>;
 
 HWY_INLINE void grow(float* box, const float* by) {
