@@ -21,7 +21,7 @@ std::string processor() {
 std::string isa_name(sobb_isa isa) {
   sobb_isa resolved = SOBB_ISA_BEST;
   check(sobb_resolve_isa(isa, &resolved));
-  return resolved == SOBB_ISA_SSE4 ? "sse4" : "avx2";
+  return sobb_isa_name(resolved);
 }
 
 std::string library_version() {

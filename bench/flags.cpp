@@ -6,6 +6,7 @@
 #include <map>
 
 #include "command_line.h"
+#include "isa_flags.h"
 
 namespace sobb::bench {
 namespace {
@@ -41,10 +42,11 @@ void add_flags(CLI::App& app, Flags& flags) {
   app.add_option("--threads", flags.threads, "threads of every build and trace, Embree's too")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--isa", flags.isa, "our kernels: best, sse4 or avx2")
-      ->check(CLI::IsMember({"best", "sse4", "avx2"}))
+  app.add_option("--isa", flags.isa, "our kernels")
+      ->check(CLI::IsMember(isa_choices()))
       ->capture_default_str();
-  app.add_option("--embree-isa", flags.embree_isa, "Embree's device option isa, e.g. sse4.2, avx2");
+  app.add_option("--embree-isa", flags.embree_isa,
+                 "Embree's device option isa, e.g. sse4.2, avx2; same: the set of our kernels");
 }
 
 }  // namespace

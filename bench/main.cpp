@@ -9,6 +9,7 @@
 #include "command_line.h"
 #include "context.h"
 #include "flags.h"
+#include "isa_flags.h"
 #include "reporter.h"
 #include "rows.h"
 #include "verify.h"
@@ -22,6 +23,7 @@ int run(Flags flags) {
 
   // Calls for one ray and for a packet take their instruction set from the environment.
   if (flags.isa != "best") setenv("SOBB_ISA", flags.isa.c_str(), 1);
+  if (flags.embree_isa == kSameIsa) flags.embree_isa = embree_isa_name(SOBB_ISA_BEST);
   Workbench workbench(flags);
   add_context(workbench);
   register_build_rows(workbench);

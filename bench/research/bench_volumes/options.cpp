@@ -5,7 +5,9 @@
 #include <CLI/CLI.hpp>
 #include <map>
 
+#include "check.h"
 #include "command_line.h"
+#include "isa_flags.h"
 
 namespace sobb::bench::volumes {
 namespace {
@@ -33,9 +35,10 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--cell-seconds", options.cell_seconds, "time for the repetitions of a row")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  add_choice(app, "--isa", options.isa,
-             {{"best", SOBB_ISA_BEST}, {"sse4", SOBB_ISA_SSE4}, {"avx2", SOBB_ISA_AVX2}},
-             "the kernels: best (default), sse4 or avx2");
+  std::map<std::string, sobb_isa> isas;
+  for (const std::string& name : isa_choices())
+    check(sobb_isa_from_name(name.c_str(), &isas[name]));
+  add_choice(app, "--isa", options.isa, isas, "the kernels (default: best)");
   add_choice(app, "--strategy", options.strategies,
              {{"k", {SOBB_STRATEGY_K}},
               {"k2", {SOBB_STRATEGY_K2}},
