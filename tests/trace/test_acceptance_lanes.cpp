@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lanes of the packet kernel accept what acceptance.h accepts, on every instruction set.
-#include "base/highway_targets.h"
+#include "base/instruction_sets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "trace/test_acceptance_lanes.cpp"
