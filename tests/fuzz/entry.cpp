@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer's entry: each program is compiled with a target of its own.
+// libFuzzer's entry, compiled once per program with that program's target.
 #include <cstddef>
 #include <cstdint>
 

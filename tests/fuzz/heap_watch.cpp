@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// See heap_watch.h.
 #include "fuzz/heap_watch.h"
 
 #include <algorithm>

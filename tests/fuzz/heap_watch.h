@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The most that the heap held during a call, where AddressSanitizer counts it.
+// HeapWatch measures the most that the heap held during a call, where AddressSanitizer counts it.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace sobb::fuzz {
 
-// One at a time, and only this thread's calls while it lives.
+// Only one lives at a time. It counts what its thread allocates while it lives.
 class HeapWatch {
  public:
   HeapWatch();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The importers: a scene whose every index is in range, or a status, within the memory allowed.
+// The targets of the readers: each gives a scene whose every index is in range, or a status, within
+// the memory allowed.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,18 +10,21 @@
 #include "base/error.h"
 #include "fuzz/heap_watch.h"
 #include "fuzz/targets.h"
+#include "scene/formats.h"
 #include "scene/gltf/gltf.h"
+#include "scene/model/measure.h"
 #include "scene/text/obj.h"
 #include "scene/text/off.h"
 #include "scene/text/ply.h"
 #include "scene/text/stl.h"
-#include "scene/views.h"
+#include "scene/views/view.h"
+#include "scene/views/views_file.h"
 
 namespace sobb::fuzz {
 namespace {
 
 constexpr uint64_t kMemoryLimit = 8 << 20;
-constexpr int64_t kBookkeeping = 1 << 18;  // what holds no part of the file
+constexpr int64_t kBookkeeping = 1 << 18;  // for what holds no part of the file
 
 std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -68,35 +72,27 @@ void check_scene(const Scene& scene) {
   check_views(scene.views);
 }
 
-// Runs an importer that fills a scene by a writer.
-template <class Import>
-void run(const Import& import) {
+// Runs body(scene, writer) under the limit of memory.
+template <class Body>
+void run_limited(const Body& body) {
   const HeapWatch heap;
-  Scene scene;
   try {
-    SceneWriter writer("scene", kMemoryLimit, scene);
-    import(scene, writer);
-    check_scene(scene);
+    Scene scene;
+    SceneWriter writer("no such folder/scene", kMemoryLimit, scene);  // nothing is beside it
+    body(scene, writer);
   } catch (const Error& error) {
-    expect(may_refuse_with(error.status), "a scene is refused with a status of its own");
+    expect(may_refuse_with(error.status), "a source is refused with a status of the scene's");
   }
   expect(heap.peak() <= static_cast<int64_t>(kMemoryLimit) + kBookkeeping,
-         "importing stays within its memory limit");
+         "reading stays within its memory limit");
 }
 
-template <class Reader>
-void run_text(Reader reader, Bytes bytes) {
-  run([&](Scene&, SceneWriter& writer) {
-    reader(text_of(bytes), "scene", writer);
+void run_reader(FormatReader reader, std::string_view bytes) {
+  run_limited([&](Scene& scene, SceneWriter& writer) {
+    reader(bytes, writer);
     writer.finish();
-  });
-}
-
-void run_gltf(std::string_view bytes) {
-  run([&](Scene& scene, SceneWriter& writer) {
-    const std::vector<GltfCamera> cameras = read_gltf(bytes, "no such folder/scene", writer);
-    writer.finish();
-    scene.views = camera_views(cameras, half_diagonal(scene));
+    scene.views = camera_views(writer.cameras(), half_diagonal(scene));
+    check_scene(scene);
   });
 }
 
@@ -112,18 +108,18 @@ void append_chunk(std::string& to, uint32_t type, std::string_view content) {
 
 }  // namespace
 
-void obj(Bytes bytes) { run_text(read_obj, bytes); }
-void ply(Bytes bytes) { run_text(read_ply, bytes); }
-void stl(Bytes bytes) { run_text(read_stl, bytes); }
-void off(Bytes bytes) { run_text(read_off, bytes); }
+void obj(Bytes bytes) { run_reader(read_obj, text_of(bytes)); }
+void ply(Bytes bytes) { run_reader(read_ply, text_of(bytes)); }
+void stl(Bytes bytes) { run_reader(read_stl, text_of(bytes)); }
+void off(Bytes bytes) { run_reader(read_off, text_of(bytes)); }
+void gltf(Bytes bytes) { run_reader(read_gltf, text_of(bytes)); }
 
-void gltf(Bytes bytes) { run_gltf(text_of(bytes)); }
-
-// A GLB as it is, or, of other bytes, one whose chunks are the text to the first zero and the rest.
+// Reads a GLB as it is. Other bytes become one, whose JSON chunk is the text up to the first zero
+// and whose binary chunk is the rest.
 void glb(Bytes bytes) {
   const std::string_view text = text_of(bytes);
   if (text.starts_with("glTF")) {
-    run_gltf(text);
+    run_reader(read_gltf, text);
     return;
   }
   const size_t zero = std::min(text.find('\0'), text.size());
@@ -133,20 +129,13 @@ void glb(Bytes bytes) {
   std::string file = "glTF";
   append_word(file, 2);
   append_word(file, static_cast<uint32_t>(12 + chunks.size()));
-  run_gltf(file + chunks);
+  run_reader(read_gltf, file + chunks);
 }
 
 void views(Bytes bytes) {
-  const HeapWatch heap;
-  try {
-    Scene scene;
-    SceneWriter writer("scene", kMemoryLimit, scene);
+  run_limited([&](Scene&, SceneWriter& writer) {
     check_views(parse_views(text_of(bytes), "cameras.json", "scene", writer));
-  } catch (const Error& error) {
-    expect(may_refuse_with(error.status), "views are refused with a status of the scene's");
-  }
-  expect(heap.peak() <= static_cast<int64_t>(kMemoryLimit) + kBookkeeping,
-         "views stay within the memory limit");
+  });
 }
 
 }  // namespace sobb::fuzz

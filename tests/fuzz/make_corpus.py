@@ -19,7 +19,7 @@ NAMES = "hairball", "wool", "pipes", "foliage", "city", "terrain"
 
 
 def hierarchies():
-    """Small .sobb files of every volume, width and k, a scene each in turn."""
+    """Small .sobb files of every volume, width and k, from one scene after another."""
     for i, (volume, width, k) in enumerate(
         (v, w, k) for v, ks in (("aabb", (64,)), ("sobb", (32, 48, 64))) for w in (4, 8) for k in ks
     ):
@@ -171,7 +171,7 @@ def document(v, f, uri):
 
 def gltf(v, f):
     yield "embedded.gltf", document(v, f, uri=True)[0]
-    # Small, and large in memory: elements of a parser's tree, of TinyGLTF, of ours.
+    # Small files that are large in memory: in the parser's tree, in TinyGLTF's structs, in ours.
     for name, list_of, element in (
         ("tree-objects", "extras", '{"a":1}'),
         ("tree-arrays", "extras", "[]"),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// See mend.h.
 #include "fuzz/mend.h"
 
 #include <algorithm>

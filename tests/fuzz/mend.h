@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes of any bytes what gets past the checks that noise never passes.
+// Mends any bytes so that they pass the checks of a .sobb file that noise never passes.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace sobb::fuzz {
 
-// A copy with magic, version, sizes and checksums as a reader wants them.
+// A copy with the magic, version, sizes and checksums that a reader wants.
 std::vector<std::byte> mended(std::span<const std::byte> bytes);
 
 }  // namespace sobb::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening a .sobb file from memory.
+// The targets that open a .sobb file from memory.
 #include <cstring>
 #include <vector>
 
@@ -11,7 +11,8 @@
 namespace sobb::fuzz {
 namespace {
 
-// The file, and what its proof takes: a byte a node and a bit a block, of at least 128 bytes each.
+// Opening takes the file's size and that of its proof: a byte per node and a bit per block, each of
+// which has at least 128 bytes in the file.
 constexpr uint64_t memory_for(uint64_t size) { return size + size / 64 + 4096; }
 
 // Messages and bookkeeping are not counted.

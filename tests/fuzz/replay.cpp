@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   std::vector<fs::path> files;
   for (int i = 2; i < argc; ++i) collect(argv[i], files);
   for (const fs::path& file : files) {
-    std::fprintf(stderr, "%s\n", file.c_str());  // seen where it crashes
+    std::fprintf(stderr, "%s\n", file.c_str());  // so that a crash shows its file
     const std::vector<char> bytes = read(file);
     target->run(std::as_bytes(std::span(bytes)));
   }

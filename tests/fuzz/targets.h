@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is fuzzed. A target takes bytes of any kind and returns; where something that is promised
-// does not hold it aborts, and the sanitizers see the rest.
+// The targets that are fuzzed. A target takes bytes of any kind and returns. It aborts where a
+// promise does not hold; the sanitizers see the rest.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace sobb::fuzz {
 
 using Bytes = std::span<const std::byte>;
 
-void open(Bytes bytes);         // a .sobb file as it is
+void open(Bytes bytes);         // opens a .sobb file as it is
 void open_mended(Bytes bytes);  // the same with sizes and checksums made to fit
-void trace(Bytes bytes);        // mended, and traced in every way where it opens
+void trace(Bytes bytes);        // traces in every way what opens once mended
 void obj(Bytes bytes);
 void ply(Bytes bytes);
 void stl(Bytes bytes);
@@ -24,7 +24,7 @@ void glb(Bytes bytes);
 void views(Bytes bytes);
 
 struct Target {
-  const char* name;  // of the program, and of the corpus' folder
+  const char* name;  // names the program and the corpus' folder
   void (*run)(Bytes bytes);
 };
 
@@ -36,7 +36,7 @@ inline constexpr Target kTargets[] = {
     {"glb", glb},     {"views", views},
 };
 
-// A promise that input must not break.
+// Aborts where `promise`, which no input may break, was not kept.
 inline void expect(bool kept, const char* promise) {
   if (kept) return;
   std::fprintf(stderr, "broken: %s\n", promise);

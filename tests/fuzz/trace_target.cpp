@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracing a .sobb file that opens: it may lie about its triangles, but every way to trace it is
-// safe, ends, and says nothing impossible.
+// The target that traces a .sobb file that opens. The file may lie about its triangles, but every
+// way to trace it is safe, ends, and gives no impossible hit.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -19,8 +19,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kRays = 320;  // more than a batch needs
 constexpr uint32_t kPacket = 16;
 
-// Fixed but for the scene's place and size: from outside towards it, from within, along the axes
-// and nearly so, of no length, beyond all bounds, and what is no ray.
+// The rays depend on the scene's place and size only: from outside towards it, from within, along
+// the axes and nearly so, of no length, beyond all bounds, and invalid ones.
 std::vector<sobb_ray> rays_for(const FileHeader& header) {
   constexpr float kZeros[] = {0.0f, -0.0f, 0x1p-140f, 0x1p-60f};
   std::vector<sobb_ray> rays(kRays);

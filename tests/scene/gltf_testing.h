@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files made in the tests.
+// GltfFile makes glTF files in the tests.
 #pragma once
 
 #include <cstring>
@@ -21,7 +21,7 @@ std::string raw(const std::vector<T>& values) {
 
 enum Component { kByte = 5120, kUbyte, kShort, kUshort, kUint = 5125, kFloat = 5126 };
 
-// A document with one buffer. Every add_ returns the new element's index.
+// A document with one buffer. Every add function returns the new element's index.
 class GltfFile {
  public:
   GltfFile() { document["asset"]["version"] = "2.0"; }
@@ -75,7 +75,7 @@ class GltfFile {
            word(uint32_t(text.size())) + "JSON" + text + word(uint32_t(padded.size())) +
            std::string("BIN\0", 4) + padded;
   }
-  // With the buffer by its URI.
+  // The JSON alone, whose buffer is at the URI.
   std::string gltf(const std::string& uri) const {
     json complete = document;
     complete["buffers"][0] = {{"byteLength", binary.size()}, {"uri", uri}};
@@ -88,7 +88,7 @@ class GltfFile {
   std::string binary;
 };
 
-// Two triangles of a unit square, by 4 vertices and 6 indices, on one root node.
+// A unit square on one root node: 4 vertices, and 6 indices of two triangles.
 inline const std::vector<float> kSquare = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 inline GltfFile square() {
   GltfFile file;
@@ -98,13 +98,11 @@ inline GltfFile square() {
   return file;
 }
 
-inline void read_glb(std::string_view bytes, const char*, SceneWriter& writer) {
-  read_gltf(bytes, "no such folder/scene.glb", writer);
+inline Scene read(const GltfFile& file) {
+  return reader_testing::read_scene(read_gltf, file.glb());
 }
-
-inline Scene read(const GltfFile& file) { return reader_testing::read_scene(read_glb, file.glb()); }
 inline void expect_error(const GltfFile& file, sobb_status status, const std::string& part) {
-  reader_testing::expect_error(read_glb, file.glb(), status, part);
+  reader_testing::expect_error(read_gltf, file.glb(), status, part);
 }
 
 }  // namespace sobb::gltf_testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of all scene readers share: reading from memory, expected errors, hostile bytes.
+// What the tests of all readers share: reading from memory, expected errors, hostile bytes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,42 +14,39 @@
 #include <string_view>
 #include <vector>
 
-#include "base/error.h"
-#include "scene/scene_writer.h"
+#include "scene/error_testing.h"
+#include "scene/formats.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb::reader_testing {
 
-using Reader = void (*)(std::string_view bytes, const char* name, SceneWriter& writer);
+// The path of what is read from memory: nothing is beside it.
+inline const std::string kPath = "no such folder/scene";
 
-inline Scene read_scene(Reader reader, std::string_view bytes) {
+inline Scene read_scene(FormatReader reader, std::string_view bytes) {
   // A copy of just that size, so that a sanitizer sees any byte read beyond it.
   const std::vector<char> exact(bytes.begin(), bytes.end());
   Scene scene;
-  SceneWriter writer("scene", 0, scene);
-  reader({exact.data(), exact.size()}, "scene", writer);
+  SceneWriter writer(kPath, 0, scene);
+  reader({exact.data(), exact.size()}, writer);
   writer.finish();
   return scene;
 }
 
 using Indices = std::vector<uint32_t>;
 
-// The message has `part`, and begins with the file's name.
-inline void expect_error(Reader reader, std::string_view bytes, sobb_status status,
+// Expects an error whose message has `part` and begins with the file's path.
+inline void expect_error(FormatReader reader, std::string_view bytes, sobb_status status,
                          const std::string& part) {
   SCOPED_TRACE(std::string(bytes.substr(0, 400)));
-  try {
-    read_scene(reader, bytes);
-    ADD_FAILURE() << "no error, expected: " << part;
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(error.status, status) << message;
-    EXPECT_NE(message.find(part), std::string::npos) << message;
-    EXPECT_EQ(message.find("scene: "), 0U) << message;
-  }
+  const std::string message =
+      test::expect_failure(status, part, [&] { read_scene(reader, bytes); });
+  EXPECT_TRUE(message.starts_with(kPath + ": ")) << message;
 }
 
-// Reads bytes that may be anything: a scene whose indices are in range, or an Error. Whether read.
-inline bool read_hostile(Reader reader, std::string_view bytes) {
+// Reads bytes that may be anything, and expects a scene whose indices are in range or an Error.
+// Returns whether it was a scene.
+inline bool read_hostile(FormatReader reader, std::string_view bytes) {
   try {
     const Scene scene = read_scene(reader, bytes);
     for (const uint32_t index : scene.indices) EXPECT_LT(index, scene.vertices.size() / 3);
@@ -59,9 +56,9 @@ inline bool read_hostile(Reader reader, std::string_view bytes) {
   }
 }
 
-// A good file truncated at every byte, and with every byte changed: each of its bits, and to
+// Reads a good file truncated at every byte, and with every byte changed: each of its bits, and to
 // characters that mean something to one format or another.
-inline void check_damaged(Reader reader, const std::string& good) {
+inline void check_damaged(FormatReader reader, const std::string& good) {
   ASSERT_TRUE(read_hostile(reader, good));
   for (size_t size = 0; size < good.size(); ++size) {
     read_hostile(reader, std::string_view(good).substr(0, size));
@@ -81,8 +78,8 @@ inline void check_damaged(Reader reader, const std::string& good) {
   }
 }
 
-// Random bytes, and random words of the format, after a beginning that the format has.
-inline void check_random(Reader reader, const std::string& beginning,
+// Reads random bytes, and random words of the format, after a beginning that the format has.
+inline void check_random(FormatReader reader, const std::string& beginning,
                          const std::vector<std::string>& words) {
   const uint32_t seed = std::random_device()();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -101,7 +98,7 @@ inline void check_random(Reader reader, const std::string& beginning,
   }
 }
 
-// The bytes of a real scene in the folder that SOBB_SCENES names; empty where it is not there.
+// The bytes of a real scene in the folder that SOBB_SCENES names; empty where there is none.
 inline std::string real_scene(const std::string& file) {
   const char* folder = std::getenv("SOBB_SCENES");
   if (folder == nullptr) return {};

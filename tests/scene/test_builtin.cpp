@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "base/error.h"
 #include "scene/builtin/builtin.h"
+#include "scene/error_testing.h"
 #include "scene/load.h"
 
 namespace sobb {
@@ -15,7 +15,7 @@ const char* const kNames[] = {"hairball", "wool", "pipes", "foliage", "city", "t
 
 Scene load(const std::string& source) { return load_scene(source, nullptr, 0); }
 
-// FNV-1a over the bytes of vertices and indices.
+// The FNV-1a hash of the vertices' and indices' bytes.
 uint64_t hash(const Scene& scene) {
   uint64_t h = 0xCBF29CE484222325;
   const auto add = [&h](const void* data, size_t size) {
@@ -27,7 +27,7 @@ uint64_t hash(const Scene& scene) {
   return h;
 }
 
-// Published figures rest on these: change a scene only with a new minor version.
+// Published figures rest on these bits: a scene changes only with a new minor version.
 TEST(Builtin, GivesTheSameBitsEverywhere) {
   const std::pair<const char*, uint64_t> pinned[] = {
       {"builtin:hairball:20000", 0x3084EBC8916F9BF5},
@@ -47,7 +47,7 @@ TEST(Builtin, ComesNearTheTrianglesAskedForAndNeverBeyond) {
       const Scene scene = load("builtin:" + name + ":" + std::to_string(triangles));
       const uint64_t made = scene.indices.size() / 3;
       EXPECT_LE(made, triangles) << name;
-      // What no part fills: the rest of a pipe, a terrain's last row.
+      // No part fills the rest, as after the last pipe or a terrain's last row.
       EXPECT_GE(made + 50 + triangles / 1000, triangles) << name;
       EXPECT_EQ(scene.degenerate_count, 0U) << name << triangles;
       ASSERT_EQ(scene.meshes.size(), 1U);
@@ -106,23 +106,14 @@ TEST(Builtin, RefusesWrongNames) {
       {"builtin:pipes@361", SOBB_ERROR_SCENE_SYNTAX},
       {"builtin:pipes@5:1000", SOBB_ERROR_SCENE_SYNTAX}};
   for (const auto& [source, status] : wrong) {
-    try {
-      load(source);
-      ADD_FAILURE() << source;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status, status) << error.what();
-      EXPECT_EQ(std::string(error.what()).find(source), 0U) << error.what();
-    }
+    const std::string message = test::expect_failure(status, source, [&] { load(source); });
+    EXPECT_TRUE(message.starts_with(source)) << message;
   }
 }
 
 TEST(Builtin, KeepsTheMemoryLimit) {
-  try {
-    load_scene("builtin:wool:1000000", nullptr, 10'000'000);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status, SOBB_ERROR_MEMORY_LIMIT) << error.what();
-  }
+  test::expect_failure(SOBB_ERROR_MEMORY_LIMIT, "builtin:wool",
+                       [] { load_scene("builtin:wool:1000000", nullptr, 10'000'000); });
 }
 
 }  // namespace

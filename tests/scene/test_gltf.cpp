@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF and GLB: every way in which triangles, transforms and cameras come.
+// The glTF reader: every way in which triangles, transforms and cameras come.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -16,7 +16,7 @@ using reader_testing::Indices;
 using reader_testing::read_scene;
 using Floats = std::vector<float>;
 
-// Triangles by the positions of their corners, whatever the vertices' order.
+// The positions of the triangles' corners, which do not depend on the vertices' order.
 Floats corners(const Scene& scene) {
   Floats result;
   for (const uint32_t i : scene.indices) {
@@ -226,7 +226,7 @@ TEST(Gltf, ReadsDataUris) {
   // 36 bytes: zeros but for the two ones.
   const std::string text = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIA/";
   const std::string uri = "data:application/octet-stream;base64," + text;
-  EXPECT_EQ(read_scene(read_glb, file.gltf(uri)).vertices, (Floats{0, 0, 0, 1, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(read_scene(read_gltf, file.gltf(uri)).vertices, (Floats{0, 0, 0, 1, 0, 0, 0, 0, 1}));
 }
 
 TEST(Gltf, NeverReadsImages) {
@@ -239,7 +239,7 @@ TEST(Gltf, NeverReadsImages) {
   EXPECT_EQ(read(file).indices.size(), 6U);
 }
 
-TEST(Gltf, ReturnsPerspectiveCamerasAsPlaced) {
+TEST(Gltf, KeepsPerspectiveCamerasAsPlaced) {
   GltfFile file = square();
   file.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}});
   file.add("cameras", {{"type", "orthographic"},
@@ -249,13 +249,18 @@ TEST(Gltf, ReturnsPerspectiveCamerasAsPlaced) {
   const std::string bytes = file.glb();
   Scene scene;
   SceneWriter writer("scene", 0, scene);
-  const std::vector<GltfCamera> cameras = read_gltf(bytes, "scene.glb", writer);
-  ASSERT_EQ(cameras.size(), 1U);
-  EXPECT_EQ(cameras[0].vfov, 1.0);
-  EXPECT_EQ(cameras[0].transform.translation, (std::array<double, 3>{1, 2, 3}));
+  read_gltf(bytes, writer);
+  ASSERT_EQ(writer.cameras().size(), 1U);
+  const SceneCamera& camera = writer.cameras()[0];
+  EXPECT_EQ(camera.vfov_radians, 1.0);
+  EXPECT_EQ(camera.eye.x, 1);
+  EXPECT_EQ(camera.eye.y, 2);
+  EXPECT_EQ(camera.eye.z, 3);
+  EXPECT_EQ(camera.forward.z, -1);
+  EXPECT_EQ(camera.up.y, 1);
 }
 
-// Triangles as the scenes' own README counts them.
+// The README of the scenes gives these counts of triangles.
 TEST(Gltf, ReadsRealScenes) {
   const char* folder = std::getenv("SOBB_SCENES");
   if (folder == nullptr) GTEST_SKIP() << "SOBB_SCENES names no folder of scenes";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading within limits of memory and time, also of small files that ask for much. (That the limit
-// of memory is kept to the byte is what the fuzzers' corpus shows under AddressSanitizer.)
+// Limits of memory and time hold while a scene loads, also for small files that ask for much. (That
+// the limit of memory holds to the byte is what the fuzzers' corpus shows under AddressSanitizer.)
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "scene/gltf_testing.h"
 #include "scene/input/json.h"
 #include "scene/text/obj.h"
-#include "scene/views.h"
+#include "scene/views/views_file.h"
 #include "sobb/scene.h"
 
 namespace sobb {
@@ -27,33 +27,25 @@ std::string repeated(const std::string& text, int times) {
   return result;
 }
 
-// Reads under a limit that the scene itself would keep, and its importer must not.
+// Reads under a limit that the scene itself would keep, and that its reader must not exceed.
 template <class Read>
 void expect_limited(uint64_t limit, const std::string& bytes, const Read& read) {
   SCOPED_TRACE(bytes.substr(0, 100));
   Scene scene;
   SceneWriter writer("scene", limit, scene);
-  try {
-    read(bytes, writer);
-    FAIL() << "no error";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status, SOBB_ERROR_MEMORY_LIMIT) << error.what();
-  }
+  test::expect_failure(SOBB_ERROR_MEMORY_LIMIT, "", [&] { read(bytes, writer); });
 }
 
 TEST(Limits, JsonIsHeldAgainstTheLimitBeforeItIsParsed) {
-  const auto read = [](const std::string& bytes, SceneWriter& writer) {
-    read_gltf(bytes, "none", writer);
-  };
   for (const char* element : {"{},", "[],", "1,", "\"\",", "{\"a\":1},"}) {
     const std::string list = repeated(element, 10'000) + "0]}";
-    expect_limited(200'000, R"({"asset":{"version":"2.0"},"extras":[)" + list, read);
+    expect_limited(200'000, R"({"asset":{"version":"2.0"},"extras":[)" + list, read_gltf);
   }
   // TinyGLTF's structs are larger than the tree.
   const std::string nodes =
       R"({"asset":{"version":"2.0"},"nodes":[)" + repeated("{},", 999) + "{}]}";
-  expect_limited(1'000'000, nodes, read);
-  expect_limited(10'000, '"' + std::string(5000, 'x') + '"', read);
+  expect_limited(1'000'000, nodes, read_gltf);
+  expect_limited(10'000, '"' + std::string(5000, 'x') + '"', read_gltf);
 }
 
 TEST(Limits, ViewsAreHeldAgainstTheLimitToo) {
@@ -77,11 +69,9 @@ TEST(Limits, CountsWhatAccessorsHold) {
         file.add("accessors", {{"componentType", 5126}, {"count", 30'000}, {"type", "VEC3"}});
     file.add_root({{"mesh", file.add_mesh(zeros)}});
   }
-  expect_limited(2'000'000, file.glb(), [](const std::string& bytes, SceneWriter& writer) {
-    read_gltf(bytes, "none", writer);
-  });
+  expect_limited(2'000'000, file.glb(), read_gltf);
   for (int i = 0; i < 20; ++i) {
-    file.add_root({{"mesh", i}});  // each once more, as many zeros as before
+    file.add_root({{"mesh", i}});  // each mesh once more, with as many zeros as before
   }
   EXPECT_NO_THROW(gltf_testing::read(file));
   for (json& accessor : file.document["accessors"]) accessor["count"] = 60'000;
@@ -90,22 +80,20 @@ TEST(Limits, CountsWhatAccessorsHold) {
 
 TEST(Limits, CountsNamesAndCorners) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  const auto read = [](const std::string& bytes, SceneWriter& writer) {
-    read_obj(bytes, "scene", writer);
-  };
-  expect_limited(100'000, triangle + repeated("g x\nf 1 2 3\n", 2000), read);
-  expect_limited(100'000, triangle + "g " + std::string(100'000, 'x') + "\nf 1 2 3\n", read);
-  expect_limited(100'000, triangle + "f" + repeated(" 1", 20'000), read);
+  expect_limited(100'000, triangle + repeated("g x\nf 1 2 3\n", 2000), read_obj);
+  expect_limited(100'000, triangle + "g " + std::string(100'000, 'x') + "\nf 1 2 3\n", read_obj);
+  expect_limited(100'000, triangle + "f" + repeated(" 1", 20'000), read_obj);
 }
 
+// A caller of the C interface that keeps what progress it is fractions, and cancels at one call.
 struct Caller {
   uint64_t stop_at = UINT64_MAX;
-  std::vector<double> told = {};
+  std::vector<double> fractions = {};
 
   static int on_progress(void* user, double fraction) {
     auto* const self = static_cast<Caller*>(user);
-    self->told.push_back(fraction);
-    return self->told.size() >= self->stop_at ? 1 : 0;
+    self->fractions.push_back(fraction);
+    return self->fractions.size() >= self->stop_at ? 1 : 0;
   }
   sobb_scene_options options() {
     sobb_scene_options options = {};
@@ -116,7 +104,7 @@ struct Caller {
   }
 };
 
-// Large enough to be asked on the way, of each kind of reader.
+// One scene per kind of reader, large enough that progress is reported on the way.
 std::vector<std::string> large_scenes(const TemporaryFolder& folder) {
   GltfFile gltf = gltf_testing::square();
   for (int i = 0; i < 40'000; ++i) gltf.add_root({{"mesh", 0}});
@@ -138,12 +126,12 @@ TEST(Limits, ProgressRisesAndMayCancelAtAnyCall) {
     sobb_scene* scene = nullptr;
     ASSERT_EQ(sobb_scene_load(source.c_str(), &options, &scene), SOBB_OK) << sobb_last_error();
     sobb_scene_release(scene);
-    EXPECT_GE(all.told.size(), 3u);
-    EXPECT_TRUE(std::ranges::is_sorted(all.told));
-    EXPECT_GE(all.told.front(), 0);
-    EXPECT_LE(all.told.back(), 1);
-    // Calls come by the clock: a quicker load has fewer of them.
-    for (uint64_t stop_at = 1; stop_at == 1 || stop_at <= all.told.size() / 2; stop_at *= 2) {
+    EXPECT_GE(all.fractions.size(), 3u);
+    EXPECT_TRUE(std::ranges::is_sorted(all.fractions));
+    EXPECT_GE(all.fractions.front(), 0);
+    EXPECT_LE(all.fractions.back(), 1);
+    // Calls come by the clock: a quicker load makes fewer of them.
+    for (uint64_t stop_at = 1; stop_at == 1 || stop_at <= all.fractions.size() / 2; stop_at *= 2) {
       Caller caller{stop_at};
       options = caller.options();
       scene = nullptr;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loading by path: endings, files beside a scene, views, limits, and the C interface over it.
+// Loading by path: endings, files beside a scene, views, turns, and the C interface over it.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "scene/builtin/builtin.h"
 #include "scene/gltf_testing.h"
-#include "scene/load.h"
-#include "scene/oblique_turn.h"
+#include "scene/load_testing.h"
+#include "scene/model/oblique_turn.h"
 #include "sobb/scene.h"
 
 namespace sobb {
@@ -19,23 +17,9 @@ namespace {
 using gltf_testing::json;
 using gltf_testing::square;
 
-// A folder of its own for each test.
-class Load : public testing::Test {
+class Load : public test::LoadingFiles {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "sobb-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << bytes;
-    return path(name);
-  }
-  // A scene file with a camera at (1, 2, 3) that looks along -z.
+  // Writes a scene file with a camera at (1, 2, 3) that looks along -z.
   std::string write_glb_with_camera(const std::string& name) const {
     gltf_testing::GltfFile file = square();
     file.add("cameras",
@@ -43,18 +27,6 @@ class Load : public testing::Test {
     file.add_root({{"camera", 0}, {"translation", {1, 2, 3}}});
     return write(name, file.glb());
   }
-  static void expect_error(const std::string& source, sobb_status status, const std::string& part,
-                           const char* views = nullptr, uint64_t limit = 0) {
-    try {
-      load_scene(source, views, limit);
-      ADD_FAILURE() << source << ": no error, expected: " << part;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status, status) << error.what();
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
-  }
-
-  std::filesystem::path folder_;
 };
 
 constexpr const char* kView =
@@ -62,17 +34,18 @@ constexpr const char* kView =
 
 TEST_F(Load, TellsFormatsByTheirEndings) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  EXPECT_EQ(load_scene(write("a.obj", obj), nullptr, 0).indices.size(), 3U);
-  EXPECT_EQ(load_scene(write("b.c.OBJ", obj), nullptr, 0).indices.size(), 3U);
-  EXPECT_EQ(load_scene(write("a.GLB", square().glb()), nullptr, 0).indices.size(), 6U);
+  EXPECT_EQ(load(write("a.obj", obj)).indices.size(), 3U);
+  EXPECT_EQ(load(write("b.c.OBJ", obj)).indices.size(), 3U);
+  EXPECT_EQ(load(write("a.GLB", square().glb())).indices.size(), 6U);
   expect_error(write("a.fbx", obj), SOBB_ERROR_SCENE_FORMAT, "unknown ending 'fbx'");
+  std::filesystem::create_directory(path("d.obj"));
   expect_error(write("d.obj/noending", obj), SOBB_ERROR_SCENE_FORMAT, "unknown ending ''");
   expect_error("", SOBB_ERROR_SCENE_FORMAT, "unknown ending");
 }
 
 TEST_F(Load, RefusesWhatIsNoFile) {
   expect_error(path("missing.glb"), SOBB_ERROR_FILE_OPEN, "missing.glb: No such file");
-  std::filesystem::create_directory(folder_ / "folder.obj");
+  std::filesystem::create_directory(path("folder.obj"));
   expect_error(path("folder.obj"), SOBB_ERROR_FILE_OPEN, "not a regular file");
   ASSERT_EQ(mkfifo(path("pipe.ply").c_str(), 0600), 0);
   expect_error(path("pipe.ply"), SOBB_ERROR_FILE_OPEN, "not a regular file");
@@ -83,12 +56,13 @@ TEST_F(Load, RefusesWhatIsNoFile) {
 
 TEST_F(Load, ReadsBuffersBesideTheFile) {
   const gltf_testing::GltfFile file = square();
+  std::filesystem::create_directories(path("a/sub"));
   const std::string gltf = write("a/b.gltf", file.gltf("sub/my%20buffer.bin"));
   expect_error(gltf, SOBB_ERROR_SCENE_REFERENCE, "sub/my%20buffer.bin");
   write("a/sub/my buffer.bin", file.binary.substr(1));
   expect_error(gltf, SOBB_ERROR_SCENE_REFERENCE, "has 59 bytes of the 60 declared");
   write("a/sub/my buffer.bin", file.binary);
-  EXPECT_EQ(load_scene(gltf, nullptr, 0).vertices, gltf_testing::kSquare);
+  EXPECT_EQ(load(gltf).vertices, gltf_testing::kSquare);
 }
 
 TEST_F(Load, CountsTheFileAgainstTheLimit) {
@@ -102,8 +76,8 @@ TEST_F(Load, CountsTheFileAgainstTheLimit) {
   EXPECT_EQ(load_scene(stl, nullptr, size + arrays).indices.size(), 3U);
 }
 
-TEST_F(Load, MakesAStatedDefaultView) {
-  const Scene scene = load_scene(write("a.glb", square().glb()), nullptr, 0);
+TEST_F(Load, MakesTheDefaultViewThatIsDocumented) {
+  const Scene scene = load(write("a.glb", square().glb()));
   ASSERT_EQ(scene.views.size(), 1U);
   EXPECT_TRUE(scene.default_view);
   const double h = std::sqrt(0.5);
@@ -114,9 +88,9 @@ TEST_F(Load, MakesAStatedDefaultView) {
   EXPECT_EQ(scene.views[0].vfov_degrees, 50);
 }
 
-TEST_F(Load, TakesViewsInTheStatedOrder) {
+TEST_F(Load, TakesViewsInTheDocumentedOrder) {
   const std::string glb = write_glb_with_camera("scene.glb");
-  Scene scene = load_scene(glb, nullptr, 0);
+  Scene scene = load(glb);
   ASSERT_EQ(scene.views.size(), 1U);
   EXPECT_FALSE(scene.default_view);
   EXPECT_EQ(scene.views[0].eye[2], 3);
@@ -125,20 +99,20 @@ TEST_F(Load, TakesViewsInTheStatedOrder) {
   EXPECT_FLOAT_EQ(scene.views[0].vfov_degrees, 85.943669F);
 
   write("cameras.json", std::string(R"({"other": 3, "scene": [)") + kView + "]}");
-  scene = load_scene(glb, nullptr, 0);
+  scene = load(glb);
   EXPECT_EQ(scene.views[0].vfov_degrees, 30);
 
   const std::string mine =
       write("mine.json", std::string(R"({"scene": [)") + kView + "," + kView + "]}");
-  EXPECT_EQ(load_scene(glb, mine.c_str(), 0).views.size(), 2U);
+  EXPECT_EQ(load(glb, mine.c_str()).views.size(), 2U);
   const std::string others = write("others.json", "{}");
-  EXPECT_EQ(load_scene(glb, others.c_str(), 0).views[0].vfov_degrees, 30);
+  EXPECT_EQ(load(glb, others.c_str()).views[0].vfov_degrees, 30);
 }
 
 TEST_F(Load, ReadsViewsOfBuiltInScenes) {
   const std::string mine = write("mine.json", std::string(R"({"city": [)") + kView + "]}");
-  EXPECT_EQ(load_scene("builtin:city:200@30", mine.c_str(), 0).views[0].vfov_degrees, 30);
-  EXPECT_FALSE(load_scene("builtin:wool:200", mine.c_str(), 0).default_view);
+  EXPECT_EQ(load("builtin:city:200@30", mine.c_str()).views[0].vfov_degrees, 30);
+  EXPECT_FALSE(load("builtin:wool:200", mine.c_str()).default_view);
 }
 
 TEST_F(Load, TurnsFilesAndTheirViews) {
@@ -154,8 +128,8 @@ TEST_F(Load, TurnsFilesAndTheirViews) {
       glb = write(name, square().glb());
     }
     write("cameras.json", beside);
-    const Scene straight = load_scene(glb, nullptr, 0);
-    const Scene turned = load_scene(glb + "@-77.5", nullptr, 0);
+    const Scene straight = load(glb);
+    const Scene turned = load(glb + "@-77.5");
     EXPECT_EQ(straight.indices, turned.indices);
     EXPECT_EQ(straight.default_view, turned.default_view);
     ASSERT_EQ(straight.views.size(), turned.views.size());
@@ -181,15 +155,15 @@ TEST_F(Load, TurnsFilesAndTheirViews) {
       }
     }
   }
-  // The same turn as that of a built-in scene about the same point.
-  const Scene straight = load_scene(path("plain.glb"), nullptr, 0);
+  // A built-in scene turns alike about the same point.
+  const Scene straight = load(path("plain.glb"));
   const ObliqueTurn turn(30, {0.5, 0.5, 0});
   const Vec3 corner =
       turn.point({straight.vertices[0], straight.vertices[1], straight.vertices[2]});
-  const Scene turned = load_scene(path("plain.glb") + "@30", nullptr, 0);
+  const Scene turned = load(path("plain.glb") + "@30");
   EXPECT_FLOAT_EQ(turned.vertices[0], float(corner.x));
   EXPECT_FLOAT_EQ(turned.vertices[2], float(corner.z));
-  EXPECT_EQ(load_scene(path("plain.glb") + "@0", nullptr, 0).vertices, straight.vertices);
+  EXPECT_EQ(load(path("plain.glb") + "@0").vertices, straight.vertices);
 }
 
 TEST_F(Load, TurnsGivenViews) {
@@ -200,7 +174,7 @@ TEST_F(Load, TurnsGivenViews) {
   const ObliqueTurn about_city = turn_of(parse_builtin("builtin:city@30"));
   for (const auto& [source, turn] : {std::pair(glb + "@30", about_square),
                                      std::pair(std::string("builtin:city:200@30"), about_city)}) {
-    const sobb_view view = load_scene(source, views.c_str(), 0).views[0];
+    const sobb_view view = load(source, views.c_str()).views[0];
     const Vec3 eye = turn.point({1, 2, 3});
     EXPECT_NEAR(view.eye[0], eye.x, 1e-5) << source;
     EXPECT_NEAR(view.eye[1], eye.y, 1e-5) << source;
@@ -212,10 +186,11 @@ TEST_F(Load, TellsTurnsFromPaths) {
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   const std::string straight = write("a.obj", obj);
   const std::string literal = write("b@9.obj", obj);
-  EXPECT_EQ(load_scene(literal, nullptr, 0).vertices[3], 1);
-  EXPECT_NE(load_scene(literal + "@9", nullptr, 0).vertices[3], 1);
+  EXPECT_EQ(load(literal).vertices[3], 1);
+  EXPECT_NE(load(literal + "@9").vertices[3], 1);
+  std::filesystem::create_directory(path("me@home"));
   write("me@home/a.obj", obj);
-  EXPECT_EQ(load_scene(path("me@home/a.obj"), nullptr, 0).vertices[3], 1);
+  EXPECT_EQ(load(path("me@home/a.obj")).vertices[3], 1);
   expect_error(write("c.obj@9", obj), SOBB_ERROR_SCENE_FORMAT, "unknown ending 'obj@9'");
   expect_error(path("none@9.obj"), SOBB_ERROR_FILE_OPEN, "none@9.obj: No such file");
   expect_error(path("none.obj@9"), SOBB_ERROR_FILE_OPEN, "none.obj: No such file");
@@ -223,11 +198,11 @@ TEST_F(Load, TellsTurnsFromPaths) {
     expect_error(straight + wrong, SOBB_ERROR_SCENE_SYNTAX,
                  std::string(wrong) + ": after '@' comes a number of degrees");
   }
-  // 2^60 along an axis is within bounds, and turned it is not.
+  // A vertex within 2^60 along each axis may be beyond it once turned.
   const std::string huge = write("huge.obj",
                                  "v 1152921504606846976 1152921504606846976 0\nv -1 "
                                  "1 0\nv -1152921504606846976 0 0\nf 1 2 3\n");
-  EXPECT_EQ(load_scene(huge, nullptr, 0).indices.size(), 3U);
+  EXPECT_EQ(load(huge).indices.size(), 3U);
   expect_error(huge + "@120", SOBB_ERROR_TOO_LARGE, "huge.obj@120: vertex");
 }
 
@@ -259,7 +234,7 @@ TEST_F(Load, RefusesWrongViewsByPlace) {
   refused(changed("vfov_degrees", "wide"), "scene[1].vfov_degrees is not a number");
 }
 
-TEST_F(Load, SpeaksC) {
+TEST_F(Load, GivesCWhatItLoaded) {
   const std::string glb = write_glb_with_camera("scene.glb");
   sobb_scene* scene = nullptr;
   ASSERT_EQ(sobb_scene_load(glb.c_str(), nullptr, &scene), SOBB_OK) << sobb_last_error();
@@ -294,7 +269,7 @@ TEST_F(Load, SpeaksC) {
   sobb_scene_release(nullptr);
 }
 
-TEST_F(Load, ReportsErrorsInC) {
+TEST_F(Load, GivesCItsErrors) {
   sobb_scene* scene = nullptr;
   EXPECT_EQ(sobb_scene_load(nullptr, nullptr, &scene), SOBB_ERROR_INVALID_ARGUMENT);
   EXPECT_EQ(sobb_scene_load("builtin:city", nullptr, nullptr), SOBB_ERROR_INVALID_ARGUMENT);

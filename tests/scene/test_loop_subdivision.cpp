@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined scenes: Loop's masks by hand, every triangle kept, meshes and views, names and errors.
+// Refined scenes: Loop's masks by hand, every triangle kept, meshes and views, suffixes and errors.
 #include "scene/subdivision/loop_subdivision.h"
 
 #include <gtest/gtest.h>
@@ -9,9 +9,8 @@
 #include <cmath>
 #include <set>
 
-#include "format/temporary_folder.h"
-#include "scene/load.h"
-#include "scene/text/obj.h"
+#include "scene/load_testing.h"
+#include "scene/model/scene_writer.h"
 #include "support/closed_meshes.h"
 #include "support/soups.h"
 
@@ -52,7 +51,7 @@ std::set<Point> places(const Scene& scene, size_t first_triangle, size_t triangl
   return result;
 }
 
-// Edges that have no neighbour running the other way, and those that run so twice.
+// How many edges have not exactly one neighbour, which runs the other way.
 size_t loose_edges(const Scene& scene) {
   std::multiset<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i < scene.indices.size(); i += 3) {
@@ -69,8 +68,8 @@ const std::vector<float> kOctahedron = {8, 0, 0, -8, 0, 0, 0, 8, 0, 0, -8, 0, 0,
 const std::vector<uint32_t> kOctahedronFaces = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4,
                                                 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
 
-// The masks of an edge, 3/8 3/8 1/8 1/8, and of a vertex with n = 4 and 3 neighbours: each has
-// (40 - (3 + 2 cos(2 pi / n))^2) / (64 n) = 31/256, 3/16.
+// An edge's mask is 3/8 3/8 1/8 1/8. A vertex with n neighbours gives each the weight
+// (40 - (3 + 2 cos(2 pi / n))^2) / (64 n): 31/256 where n = 4, 3/16 where n = 3.
 TEST(LoopSubdivision, FollowsTheMasks) {
   const Scene octahedron = subdivided(make_scene(kOctahedron, kOctahedronFaces), 1);
   EXPECT_EQ(octahedron.indices.size() / 3, 32U);
@@ -96,7 +95,7 @@ TEST(LoopSubdivision, FollowsTheMasks) {
                                                          {0, 0, -4}}));
 }
 
-// An end is a cubic B-spline: 1/8 6/8 1/8, and the middle of each edge.
+// Where a surface ends it is a cubic B-spline: 1/8 6/8 1/8, and the middle of each edge.
 TEST(LoopSubdivision, SmoothsEndsAsCurves) {
   const Scene one = subdivided(make_scene({0, 0, 0, 8, 0, 0, 0, 8, 0}, {0, 1, 2}), 1);
   EXPECT_EQ(places(one, 0, 4),
@@ -119,9 +118,9 @@ TEST(LoopSubdivision, KeepsClosedMeshesClosedAndFacing) {
   EXPECT_GE(closed, 4);
 }
 
-// The octahedron's limit: a vertex and its four neighbours at a distance d from the centre go to
-// p + c (m - p) with c = 1 / (1 + 3 / (8 * 31/64)), m = 0 the mean of its neighbours.
-TEST(LoopSubdivision, NearsTheLimit) {
+// In the limit an octahedron's vertex p goes to p + c (m - p), with c = 1 / (1 + 3 / (8 * 31/64))
+// and m the mean of its four neighbours, which is the centre 0.
+TEST(LoopSubdivision, ConvergesToTheLimit) {
   const double limit = 8 - 8 / (1 + 3 / (8 * 31.0 / 64));
   const Scene scene = make_scene(kOctahedron, kOctahedronFaces);
   double before = 8;
@@ -133,7 +132,7 @@ TEST(LoopSubdivision, NearsTheLimit) {
   }
 }
 
-TEST(LoopSubdivision, WeldsPlaces) {
+TEST(LoopSubdivision, WeldsVerticesAtOnePlace) {
   const std::vector<float> square = {0,    0, 0, 8, 0, 0, 8, 8, 0,  //
                                      -0.F, 0, 0, 8, 8, 0, 0, 8, -0.F};
   const Scene refined = subdivided(make_scene(square, {0, 1, 2, 3, 4, 5}), 1);
@@ -141,8 +140,9 @@ TEST(LoopSubdivision, WeldsPlaces) {
   EXPECT_TRUE(places(refined, 0, 8).contains({4, 4, 0}));
 }
 
-// Two tetrahedra that touch at a corner, three triangles at an edge, neighbours that face opposite
-// ways, a triangle and its back, the same triangle twice, a strip with one half turn.
+// The meshes are two tetrahedra that touch at a corner, three triangles at an edge, neighbours that
+// face opposite ways, a triangle and its back, the same triangle twice, a strip with one half turn,
+// and degenerate triangles.
 TEST(LoopSubdivision, LosesNothingWhereSurfacesAreNoManifold) {
   const std::vector<float> points = {0, 0,  0, 8, 0, 0,  0, 8, 0, 0, 0,
                                      8, -8, 0, 0, 0, -8, 0, 0, 0, -8};
@@ -201,7 +201,7 @@ TEST(LoopSubdivision, WeightsAreFarFromTies) {
   }
 }
 
-TEST(LoopSubdivision, HasManyTrianglesAboutAVertex) {
+TEST(LoopSubdivision, TakesManyTrianglesAboutAVertex) {
   std::vector<float> vertices = {0, 0, 9};
   std::vector<uint32_t> indices;
   const uint32_t count = 3000;
@@ -215,27 +215,15 @@ TEST(LoopSubdivision, HasManyTrianglesAboutAVertex) {
   EXPECT_NEAR(refined.bounds_max[2], 9 * (1 - 15.0 / 64), 1e-4);
 }
 
-class SubdividedFiles : public testing::Test {
+class SubdividedFiles : public test::LoadingFiles {
  protected:
-  static void expect_error(const std::string& source, sobb_status status, const std::string& part,
-                           uint64_t limit = 0) {
-    try {
-      load_scene(source, nullptr, limit);
-      ADD_FAILURE() << source << ": no error, expected: " << part;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.status, status) << error.what();
-      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-    }
-  }
-
-  test::TemporaryFolder folder_;
-  std::string obj_ = folder_.write(
-      "two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\ng a\nf 1 2 3\ng b\nf 1 2 4\nf 2 3 4\n");
+  std::string obj_ =
+      write("two.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\ng a\nf 1 2 3\ng b\nf 1 2 4\nf 2 3 4\n");
 };
 
-TEST_F(SubdividedFiles, KeepMeshesInOrderAndViews) {
-  const Scene plain = load_scene(obj_, nullptr, 0);
-  const Scene refined = load_scene(obj_ + "^16", nullptr, 0);
+TEST_F(SubdividedFiles, KeepTheOrderOfMeshesAndTheViews) {
+  const Scene plain = load(obj_);
+  const Scene refined = load(obj_ + "^16");
   ASSERT_EQ(refined.meshes.size(), 2U);
   EXPECT_EQ(refined.meshes[0].name, "a");
   EXPECT_EQ(refined.meshes[0].triangle_count, 16U);
@@ -246,21 +234,21 @@ TEST_F(SubdividedFiles, KeepMeshesInOrderAndViews) {
   EXPECT_EQ(refined.views[0].eye[0], plain.views[0].eye[0]);
 }
 
-TEST_F(SubdividedFiles, TurnToo) {
-  const Scene straight = load_scene(obj_ + "^4", nullptr, 0);
-  const Scene turned = load_scene(obj_ + "^4@30", nullptr, 0);
-  const Scene only_turned = load_scene(obj_ + "@30", nullptr, 0);
+TEST_F(SubdividedFiles, TurnAsTheFilesDo) {
+  const Scene straight = load(obj_ + "^4");
+  const Scene turned = load(obj_ + "^4@30");
+  const Scene only_turned = load(obj_ + "@30");
   EXPECT_EQ(straight.indices, turned.indices);
   EXPECT_NE(straight.vertices, turned.vertices);
   EXPECT_EQ(only_turned.views[0].eye[1], turned.views[0].eye[1]);
-  EXPECT_EQ(load_scene("builtin:terrain:500^64@30", nullptr, 0).indices.size(),
-            64 * load_scene("builtin:terrain:500@30", nullptr, 0).indices.size());
+  EXPECT_EQ(load("builtin:terrain:500^64@30").indices.size(),
+            64 * load("builtin:terrain:500@30").indices.size());
 }
 
-TEST_F(SubdividedFiles, AreNamed) {
-  const std::string whole = folder_.write("a^4.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
-  EXPECT_EQ(load_scene(whole, nullptr, 0).indices.size(), 3U);
-  EXPECT_EQ(load_scene(whole + "^4", nullptr, 0).indices.size(), 12U);
+TEST_F(SubdividedFiles, HaveTimesBehindThePath) {
+  const std::string whole = write("a^4.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(load(whole).indices.size(), 3U);
+  EXPECT_EQ(load(whole + "^4").indices.size(), 12U);
   for (const std::string suffix :
        {"^", "^5", "^x", "^016", "^16 ", "^-4", "^", "^64.0", "^4@30^4"}) {
     const bool turn = suffix == "^4@30^4";
@@ -271,14 +259,13 @@ TEST_F(SubdividedFiles, AreNamed) {
   expect_error(obj_ + "^5@30", SOBB_ERROR_SCENE_SYNTAX, "two.obj^5@30: after '^'");
   expect_error(obj_ + "^4^4", SOBB_ERROR_SCENE_FORMAT, "unknown ending 'obj^4'");
   expect_error("builtin:city^4:1000", SOBB_ERROR_SCENE_SYNTAX, "after '^'");
-  folder_.write("b^4", "no scene");
-  expect_error((std::filesystem::path(obj_).parent_path() / "b^4").string(),
-               SOBB_ERROR_SCENE_FORMAT, "unknown ending");
+  write("b^4", "no scene");
+  expect_error(path("b^4"), SOBB_ERROR_SCENE_FORMAT, "unknown ending");
 }
 
-TEST_F(SubdividedFiles, KeepToTheLimitOfMemory) {
+TEST_F(SubdividedFiles, KeepTheMemoryLimit) {
   const std::string source = "builtin:city:5000";
-  expect_error(source + "^64", SOBB_ERROR_MEMORY_LIMIT, source + "^64: needs", 10'000'000);
+  expect_error(source + "^64", SOBB_ERROR_MEMORY_LIMIT, source + "^64: needs", nullptr, 10'000'000);
   EXPECT_EQ(load_scene(source, nullptr, 10'000'000).indices.size() * 16,
             load_scene(source + "^16", nullptr, 20'000'000).indices.size());
 }
@@ -287,12 +274,8 @@ TEST(LoopSubdivision, RefusesMoreThanOpenMeshCounts) {
   const Scene scene = make_scene(kOctahedron, kOctahedronFaces);
   Scene many = scene;
   many.indices.resize(size_t(3) * ((1U << 24) + 1));
-  try {
-    subdivide_scene("made^64", 3, 0, many, nullptr);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status, SOBB_ERROR_TOO_LARGE);
-  }
+  test::expect_failure(SOBB_ERROR_TOO_LARGE, "made^64",
+                       [&] { subdivide_scene("made^64", 3, 0, many, nullptr); });
 }
 
 }  // namespace

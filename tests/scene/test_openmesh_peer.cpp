@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenMesh's readers as peers: the same well-formed files, the same vertices and triangles.
+// Well-formed files give the same vertices and triangles as through OpenMesh's readers.
 #if defined(__GNUC__) && !defined(__clang__)
 // OpenMesh adds vectors without values; GCC sees that when sanitizers change what is inlined.
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -53,8 +53,8 @@ PeerMesh make_grid(uint32_t seed, bool quads) {
   return mesh;
 }
 
-// The corners of every triangle, in order, each as its position: OpenMesh merges the vertices of an
-// STL, we do not.
+// The position of every triangle's corners, in order: OpenMesh merges the vertices of an STL, and
+// we do not.
 std::vector<float> corner_positions(const PeerMesh& mesh) {
   std::vector<float> positions;
   for (const auto face : mesh.faces()) {
@@ -79,12 +79,12 @@ std::vector<float> corner_positions(const Scene& scene) {
 
 struct Format {
   const char* ending;
-  reader_testing::Reader reader;
+  FormatReader reader;
   OpenMesh::IO::Options options;
   bool quads;
 };
 
-// OpenMesh writes the grid; both read it back.
+// Lets OpenMesh write the grid, and both read it back.
 void check_format(const Format& format) {
   const uint32_t seed = std::random_device()();
   SCOPED_TRACE(std::string(format.ending) + ", seed " + std::to_string(seed));
@@ -107,18 +107,18 @@ void check_format(const Format& format) {
   EXPECT_EQ(expected.size(), corner_positions(mesh).size());
 }
 
-TEST(OpenMeshPeer, Obj) { check_format({".obj", read_obj, {}, true}); }
-TEST(OpenMeshPeer, Off) { check_format({".off", read_off, {}, true}); }
-TEST(OpenMeshPeer, PlyAscii) { check_format({".ply", read_ply, {}, true}); }
-TEST(OpenMeshPeer, PlyLittleEndian) {
+TEST(OpenMeshPeer, ReadsTheSameObj) { check_format({".obj", read_obj, {}, true}); }
+TEST(OpenMeshPeer, ReadsTheSameOff) { check_format({".off", read_off, {}, true}); }
+TEST(OpenMeshPeer, ReadsTheSamePlyAscii) { check_format({".ply", read_ply, {}, true}); }
+TEST(OpenMeshPeer, ReadsTheSamePlyLittleEndian) {
   check_format({".ply", read_ply, OpenMesh::IO::Options::Binary, true});
 }
-TEST(OpenMeshPeer, PlyBigEndian) {
+TEST(OpenMeshPeer, ReadsTheSamePlyBigEndian) {
   using OpenMesh::IO::Options;
   check_format({".ply", read_ply, Options(Options::Binary | Options::MSB), true});
 }
-TEST(OpenMeshPeer, StlAscii) { check_format({".stl", read_stl, {}, false}); }
-TEST(OpenMeshPeer, StlBinary) {
+TEST(OpenMeshPeer, ReadsTheSameStlAscii) { check_format({".stl", read_stl, {}, false}); }
+TEST(OpenMeshPeer, ReadsTheSameStlBinary) {
   check_format({".stl", read_stl, OpenMesh::IO::Options::Binary, false});
 }
 

@@ -36,12 +36,12 @@ std::string ascii(const std::string& elements, const std::string& data) {
   return header("ascii", elements) + data;
 }
 
-// A file with the four vertices and the two faces given.
+// A file with the four vertices, and two faces as given.
 std::string ascii_faces(const std::string& faces) {
   return ascii(std::string(kVertexHeader) + kFaceHeader, kVertices + faces);
 }
 
-// Bytes of numbers, in the order of bytes that the encoding says.
+// Makes the bytes of numbers, in the encoding's order of bytes.
 class Bytes {
  public:
   explicit Bytes(std::string encoding)
@@ -182,7 +182,7 @@ TEST(Ply, ListsMayBeOfEveryIntegerType) {
   }
 }
 
-// Faces first, elements and properties that nobody asked for before, between and after.
+// Faces come first; elements and properties that no scene needs come before, between and after.
 const char kMixedHeader[] =
     "element nothing 1000000000000\n"
     "element camera 1\nproperty float view\nproperty list uchar short path\n"

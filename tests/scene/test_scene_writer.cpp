@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SceneWriter: what it checks for every importer.
-#include "scene/scene_writer.h"
+// SceneWriter: what it checks for every reader.
+#include "scene/model/scene_writer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "scene/input/utf8.h"
+#include "scene/model/utf8.h"
 
 namespace sobb {
 namespace {

@@ -26,7 +26,7 @@ const char kFacet[] =
 
 std::string solid(const std::string& facets) { return "solid part\n" + facets + "endsolid part\n"; }
 
-// Nine coordinates a triangle.
+// A binary STL, from nine coordinates per triangle.
 std::string binary(const std::vector<float>& coordinates, const std::string& header = "") {
   std::string bytes = header;
   bytes.resize(80);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kPrefix = "builtin:";
 constexpr uint64_t kMostTriangles = 1'000'000'000;
 
-struct View {
+struct BuiltinView {  // y is up
   Vec3 eye;
   Vec3 target;
   double vfov_degrees;
@@ -24,7 +24,7 @@ struct BuiltinScene {
   const char* name;
   void (*make)(PartsWriter& parts);
   Vec3 centre;
-  std::vector<View> views;
+  std::vector<BuiltinView> views;
 };
 
 const std::vector<BuiltinScene>& scenes() {
@@ -55,7 +55,7 @@ const BuiltinScene* find_scene(std::string_view name) {
   return nullptr;
 }
 
-// The whole of `text` as a number of triangles.
+// Whether all of `text` is a number.
 bool parse_count(std::string_view text, uint64_t& count) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   return error == std::errc() && end == text.data() + text.size();
@@ -109,14 +109,12 @@ std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer
   scene.make(parts);
 
   std::vector<sobb_view> views;
-  for (const View& view : scene.views) {
-    const Vec3 eye = turn.point(view.eye);
-    const Vec3 target = turn.point(view.target);
-    const Vec3 up = turn.vector({0, 1, 0});
-    views.push_back({{float(eye.x), float(eye.y), float(eye.z)},
-                     {float(target.x), float(target.y), float(target.z)},
-                     {float(up.x), float(up.y), float(up.z)},
-                     float(view.vfov_degrees)});
+  for (const BuiltinView& view : scene.views) {
+    sobb_view& turned = views.emplace_back();
+    narrow(turn.point(view.eye), turned.eye);
+    narrow(turn.point(view.target), turned.target);
+    narrow(turn.vector({0, 1, 0}), turned.up);
+    turned.vfov_degrees = float(view.vfov_degrees);
   }
   return views;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Built-in scenes by name: builtin:NAME[:TRIANGLES][@DEGREES].
+// Makes built-in scenes by name: builtin:NAME[:TRIANGLES][@DEGREES].
+//
+// The room builtin/ makes scenes without a file: each of scenes.h has a source file of its own,
+// which writes parts (parts.h) with the arithmetic of model/vec3.h and random.h.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/oblique_turn.h"
-#include "scene/scene_writer.h"
+#include "scene/model/oblique_turn.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -20,8 +23,8 @@ struct BuiltinName {
 
 bool is_builtin(std::string_view source);
 
-// Errors: SCENE_FORMAT for a scene that is not known, with those that are; SCENE_SYNTAX for a
-// number that is none or out of range.
+// Errors: SCENE_FORMAT for a scene that is not known, with the list of those that are; SCENE_SYNTAX
+// for a number that is none or out of range.
 BuiltinName parse_builtin(const std::string& source);
 
 // The turn that the name asks for.

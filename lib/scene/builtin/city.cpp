@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// City: buildings in rows, all of boxes along the axes, with windows and things on the roofs.
+// Makes the city: buildings in rows, all of boxes along the axes, with windows and boxes on roofs.
 #include <algorithm>
 
 #include "scene/builtin/scenes.h"
@@ -14,7 +14,7 @@ struct Block {
   Vec3 high;
 };
 
-// Window frames stand out of the four walls, `columns` by `floors` on each.
+// Writes window frames that stand out of the four walls, `columns` by `floors` on each.
 void write_windows(PartsWriter& parts, const Block& block, uint64_t columns, uint64_t floors) {
   const Vec3 size = block.high - block.low;
   const double rise = size.y / double(floors);
@@ -62,7 +62,7 @@ void write_building(PartsWriter& parts, Random& random, Vec3 middle, double half
     block.high.y = block.low.y + height * (tier == 0 ? 0.6 : 0.4) / double(tier == 0 ? 1 : tiers);
     parts.box(block.low, block.high);
     --boxes;
-    // As square as the walls let them be.
+    // The windows are as square as the walls let them be.
     const uint64_t share = windows / (tiers - tier) / 4;
     const double slender = (block.high.y - block.low.y) / (block.high.x - block.low.x);
     const auto floors = std::max<uint64_t>(1, uint64_t(std::sqrt(double(share) * slender)));

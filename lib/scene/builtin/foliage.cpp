@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Foliage: trees with branches and many single leaves, on a plane.
+// Makes the foliage: trees with branches and many single leaves, on a plane.
 #include <algorithm>
 #include <vector>
 
@@ -30,7 +30,7 @@ void write_branch(PartsWriter& parts, const Branch& branch, double radius, uint6
   parts.tube(rings, sides);
 }
 
-// A quad about its stem, lying any way.
+// Writes a quad about its stem, in a random direction.
 void write_leaf(PartsWriter& parts, Random& random, Vec3 at, double size) {
   const Vec3 length = size * random.direction();
   const Vec3 width = 0.55 * size * normalized(cross(length, random.direction()));
@@ -53,7 +53,7 @@ void write_tree(PartsWriter& parts, Random& random, Vec3 foot, double height, ui
   for (uint64_t i = 0; i < branches; ++i) {
     turn += 0.381966 + random.uniform(-0.05, 0.05);  // the golden angle, as plants have it
     const double up = 0.25 + 0.7 * (double(i) + random.uniform()) / double(branches);
-    // A round crown: the longest branches below its middle.
+    // The crown is round, with the longest branches below its middle.
     const double reach = height * 0.75 * std::sqrt(up * (1.02 - up));
     const SinCos heading = sin_cos(turn);
     const Vec3 root = along(trunk, up);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hairball: strands that wander about a ball, one over another.
+// Makes the hairball: strands that wander about a ball, one over another.
 #include <algorithm>
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t kSides = 3;
 constexpr double kStep = 0.1;  // radians about the ball from ring to ring
 
-// A strand goes along a great circle that keeps turning, at a distance that swells and sinks.
+// Writes a strand along a great circle that keeps turning, at a distance that swells and sinks.
 void write_strand(PartsWriter& parts, Random& random, uint64_t segments, double radius) {
   Vec3 up = random.direction();
   Vec3 ahead = perpendicular(up);
@@ -20,7 +20,7 @@ void write_strand(PartsWriter& parts, Random& random, uint64_t segments, double 
   const double depth = random.uniform();
   const double distance = 0.95 - 0.35 * depth * depth;
   const double bend = random.uniform(-0.12, 0.12);
-  const double waves = random.uniform(0.01, 0.04);  // turns a ring
+  const double waves = random.uniform(0.01, 0.04);  // turns per ring
   const double phase = random.uniform();
 
   std::vector<Ring> rings;
@@ -43,7 +43,7 @@ void make_hairball(PartsWriter& parts) {
   const uint64_t segments = std::clamp<uint64_t>(parts.left() / 300, 2, 48);
   const uint64_t each = PartsWriter::tube_triangles(segments + 1, kSides);
   const uint64_t strands = parts.left() / each;
-  // Thinner where there are more, though not so much that they would cover no more of the ball.
+  // More strands are thinner, but not so much that they would cover no more of the ball.
   const double radius = std::min(0.03, 0.12 / std::sqrt(double(strands)));
   Random random(1);
   while (parts.left() >= each) write_strand(parts, random, segments, radius);

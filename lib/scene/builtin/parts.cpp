@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See builtin_parts.h.
+// See parts.h.
 #include "scene/builtin/parts.h"
 
 #include <string>
@@ -44,7 +44,7 @@ void PartsWriter::box(Vec3 low, Vec3 high) {
   }
 }
 
-// Each ring's frame is the last one's, turned the least: tubes do not twist.
+// Each ring's axes are those of the ring before, turned as little as possible: tubes do not twist.
 void PartsWriter::tube(std::span<const Ring> rings, uint64_t sides) {
   const uint64_t base = writer_.vertex_count();
   const uint64_t last = rings.size() - 1;

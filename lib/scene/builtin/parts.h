@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts that built-in scenes are made of, written out as triangles within a budget.
+// Writes the parts that built-in scenes are made of as triangles, within a budget.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "scene/builtin/math.h"
-#include "scene/oblique_turn.h"
-#include "scene/scene_writer.h"
+#include "scene/model/oblique_turn.h"
+#include "scene/model/scene_writer.h"
+#include "scene/model/vec3.h"
 
 namespace sobb {
 
+// A cross-section of a tube.
 struct Ring {
   Vec3 centre;
   double radius = 0;
@@ -21,14 +22,14 @@ class PartsWriter {
  public:
   PartsWriter(SceneWriter& writer, uint64_t budget, const ObliqueTurn& turn);
 
-  // Triangles that may yet come.
+  // The triangles of the budget that are left.
   uint64_t left() const { return left_; }
 
-  // Parts, and what each takes of the budget. A part beyond it is an internal error: scenes ask
-  // first.
-  void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d);  // 2
+  // The parts, and the triangles that each takes of the budget. A part beyond the budget is an
+  // internal error: scenes ask left() first.
+  void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
   static constexpr uint64_t kQuad = 2;
-  void box(Vec3 low, Vec3 high);  // 12, along the axes
+  void box(Vec3 low, Vec3 high);  // along the axes
   static constexpr uint64_t kBox = 12;
   void tube(std::span<const Ring> rings, uint64_t sides);  // both ends closed
   static constexpr uint64_t tube_triangles(uint64_t rings, uint64_t sides) {
@@ -38,7 +39,7 @@ class PartsWriter {
   static constexpr uint64_t ellipsoid_triangles(uint64_t stacks) {
     return 4 * stacks * (stacks - 1);
   }
-  // (rows + 1) x (columns + 1) points, `point(row, column)`.
+  // Quads between (rows + 1) x (columns + 1) points, which point(row, column) gives.
   template <class Point>
   void grid(uint64_t rows, uint64_t columns, const Point& point) {
     const uint64_t base = writer_.vertex_count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pipes: long thin tubes with elbows and flanges, along the axes and at all angles.
+// Makes the pipes: long thin tubes with elbows and flanges, along the axes and at all angles.
 #include <algorithm>
 #include <vector>
 
@@ -9,13 +9,14 @@ namespace sobb {
 namespace {
 
 constexpr Vec3 kHalf{2, 1, 2};  // of the box they fill
-constexpr uint64_t kElbow = 4;  // segments
+constexpr uint64_t kElbow = 4;  // segments of an elbow
 constexpr uint64_t kMostRuns = 6;
 
-// Two flanges, and an elbow between each two runs.
+// A pipe has two flanges, and an elbow between each two runs.
 constexpr uint64_t ring_count(uint64_t runs) { return 6 + (kElbow + 1) * (runs - 1); }
 
-// Half of all runs go along the axes, as pipes in buildings do; any that would leave is mirrored.
+// The end of the next run. Half of all runs go along the axes, as pipes in buildings do; one that
+// would leave the box is mirrored.
 Vec3 next_corner(Random& random, Vec3 from, Vec3 last_direction) {
   for (;;) {
     Vec3 d = random.direction();
@@ -59,7 +60,7 @@ void write_pipe(PartsWriter& parts, Random& random, uint64_t runs, uint64_t side
   };
   flange(corners[0], normalized(corners[1] - corners[0]), true);
   for (uint64_t i = 1; i < runs; ++i) {
-    // A quadratic curve between the runs.
+    // The elbow is a quadratic curve between the runs.
     const double reach = 6 * radius < 0.12 ? 6 * radius : 0.12;
     const Vec3 in = corners[i] - reach * normalized(corners[i] - corners[i - 1]);
     const Vec3 out = corners[i] + reach * normalized(corners[i + 1] - corners[i]);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "scene/builtin/parts.h"
+#include "scene/builtin/random.h"
 
 namespace sobb {
 
-// Each spends the writer's budget, at least kLeastTriangles, on parts about the origin, y up.
+// Each function spends the writer's budget, at least kLeastTriangles, on parts about the origin, y
+// up.
 inline constexpr uint64_t kLeastTriangles = 100;
 
 void make_hairball(PartsWriter& parts);  // strands wound about a ball of radius 1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Terrain: mountains, a height field of fractal noise.
+// Makes the terrain: mountains, a height field of fractal noise.
 #include <algorithm>
 
 #include "scene/builtin/scenes.h"
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kHalf = 10;
 
-// Values in [-1, 1] at the points of a lattice, blended between with a quintic (K. Perlin,
-// Improving Noise, 2002).
+// Blends random values in [-1, 1] at the points of a lattice with a quintic (K. Perlin, Improving
+// Noise, 2002).
 double noise(double x, double z, uint64_t seed) {
   const double x0 = std::floor(x);
   const double z0 = std::floor(z);
@@ -27,8 +27,8 @@ double noise(double x, double z, uint64_t seed) {
   return near + v * (far - near);
 }
 
-// Ridges (1 - |noise|), finer ones weighted by the coarser, so that valleys stay smooth
-// (F. K. Musgrave, in Texturing and Modeling, 1994).
+// Sums ridges (1 - |noise|). Coarser ones weight the finer, so that valleys stay smooth (F. K.
+// Musgrave, in Texturing and Modeling, 1994).
 double height(double x, double z) {
   double sum = 0;
   double weight = 1;
@@ -40,7 +40,7 @@ double height(double x, double z) {
     sum += amplitude * weight * ridge;
     weight = std::clamp(1.6 * ridge, 0.0, 1.0);
     amplitude *= 0.45;
-    // Turned a little, lest the octaves' lattices coincide.
+    // Each octave's lattice is turned a little, so that no two coincide.
     const double turned = 0.8 * x - 0.6 * z;
     z = 0.6 * x + 0.8 * z;
     x = turned;
@@ -52,7 +52,7 @@ double height(double x, double z) {
 }  // namespace
 
 void make_terrain(PartsWriter& parts) {
-  // The nearly square grid that spends the most.
+  // Of the nearly square grids, the one that spends the most.
   const uint64_t quads = parts.left() / PartsWriter::kQuad;
   const auto root = uint64_t(std::sqrt(double(quads)));
   uint64_t rows = root;

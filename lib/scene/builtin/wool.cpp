@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wool: short curls, tightly packed on rounded bodies that make a sheep.
+// Makes the wool: short curls, tightly packed on rounded bodies that make a sheep.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -30,7 +30,7 @@ constexpr std::array<Body, 9> kBodies = {{
     {{-0.22, 1.24, 0.84}, {0.13, 0.035, 0.06}, 0, 0},
 }};
 
-// A helix that leans with the wool: away from the body, down and back.
+// Writes a helix that leans with the wool: away from the body, down and back.
 void write_curl(PartsWriter& parts, Random& random, const Body& body, uint64_t segments,
                 double radius) {
   const Vec3 on = random.direction();
@@ -59,7 +59,7 @@ void write_curl(PartsWriter& parts, Random& random, const Body& body, uint64_t s
 }  // namespace
 
 void make_wool(PartsWriter& parts) {
-  // Skin below, at most a quarter of the triangles.
+  // The skin below the curls takes at most a quarter of the triangles.
   uint64_t stacks = 2;
   const auto skin = [](uint64_t n) { return kBodies.size() * PartsWriter::ellipsoid_triangles(n); };
   while (stacks < 40 && skin(stacks + 1) * 25 <= parts.left()) ++stacks;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See gltf_buffers.h.
+// See buffers.h.
 #include "scene/gltf/buffers.h"
 
 #include <utility>
@@ -10,7 +10,7 @@
 namespace sobb {
 namespace {
 
-constexpr uint64_t kMostZeros = 1 << 20;  // elements, in all accessors
+constexpr uint64_t kMostZeros = 1 << 20;  // elements, over all accessors
 
 int hex_digit(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -18,7 +18,7 @@ int hex_digit(char c) {
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-// Percent-encoded bytes of a URI (RFC 3986, section 2.1) as themselves.
+// The URI with its percent-encoded bytes (RFC 3986, section 2.1) decoded.
 std::string unescaped(std::string_view uri) {
   std::string result;
   for (size_t i = 0; i < uri.size(); ++i) {
@@ -32,9 +32,9 @@ std::string unescaped(std::string_view uri) {
 
 }  // namespace
 
-GltfBuffers::GltfBuffers(const std::vector<GltfBuffer>& buffers, std::string_view path,
+GltfBuffers::GltfBuffers(const std::vector<GltfBuffer>& buffers,
                          std::optional<std::string_view> binary, SceneWriter& writer)
-    : buffers_(buffers), path_(path), binary_(binary), writer_(writer), fetched_(buffers.size()) {}
+    : buffers_(buffers), binary_(binary), writer_(writer), fetched_(buffers.size()) {}
 
 void GltfBuffers::refuse(size_t index, const std::string& cause) const {
   const std::string& uri = buffers_[index].uri;
@@ -56,7 +56,7 @@ void GltfBuffers::hold(uint64_t bytes) {
   writer_.work(bytes / 16);
 }
 
-std::string_view GltfBuffers::decoded(size_t index) {
+std::string_view GltfBuffers::decode_data_uri(size_t index) {
   const std::string_view uri = buffers_[index].uri;
   const size_t comma = uri.find(',');
   if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) {
@@ -68,20 +68,20 @@ std::string_view GltfBuffers::decoded(size_t index) {
   return decoded_[index] = std::move(*bytes);
 }
 
-std::string_view GltfBuffers::file(size_t index) {
+std::string_view GltfBuffers::read_beside(size_t index) {
   const std::string relative = unescaped(buffers_[index].uri);
   if (relative.starts_with('/') || relative.find(':') != std::string::npos ||
       relative.find('\0') != std::string::npos) {
     refuse(index, "is not a relative path");
   }
-  const size_t slash = path_.rfind('/');
-  const std::string folder(slash == std::string_view::npos ? "" : path_.substr(0, slash + 1));
-  const auto found = files_.find(folder + relative);
+  const std::string& gltf = writer_.name();
+  const std::string path = gltf.substr(0, gltf.rfind('/') + 1) + relative;  // npos + 1 is 0
+  const auto found = files_.find(path);
   if (found != files_.end()) return found->second.view();
   try {
-    FileBytes bytes = read_file(folder + relative, writer_);
+    FileBytes bytes = read_file(path, writer_);
     writer_.hold(bytes.size);
-    return (files_[folder + relative] = std::move(bytes)).view();
+    return (files_[path] = std::move(bytes)).view();
   } catch (const Error& error) {
     if (error.status != SOBB_ERROR_FILE_OPEN && error.status != SOBB_ERROR_FILE_READ) throw;
     refuse(index, std::string("cannot be read: ") + error.what());
@@ -90,8 +90,8 @@ std::string_view GltfBuffers::file(size_t index) {
 
 std::string_view GltfBuffers::fetch(size_t index) {
   const GltfBuffer& buffer = buffers_[index];
-  if (buffer.uri.starts_with("data:")) return decoded(index);
-  if (!buffer.uri.empty()) return file(index);
+  if (buffer.uri.starts_with("data:")) return decode_data_uri(index);
+  if (!buffer.uri.empty()) return read_beside(index);
   // Only the first buffer may be the binary chunk (glTF 2.0, section 4.4.3).
   if (index != 0 || !binary_) refuse(index, "is missing");
   return *binary_;

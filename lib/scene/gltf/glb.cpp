@@ -2,7 +2,6 @@
 // See glb.h.
 #include "scene/gltf/glb.h"
 
-#include <bit>
 #include <cstdint>
 
 #include "base/error.h"
@@ -18,7 +17,7 @@ constexpr size_t kHeaderSize = 12;
 constexpr size_t kChunkHeaderSize = 8;
 
 uint32_t word(std::string_view bytes, size_t offset) {
-  return load_bytes<uint32_t>(&bytes[offset], std::endian::little);
+  return load_little<uint32_t>(&bytes[offset]);
 }
 
 }  // namespace

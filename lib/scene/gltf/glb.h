@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary container of glTF 2.0 (specification, section 4): a header and chunks.
+// Splits a GLB, the binary container of glTF 2.0 (specification, section 4), into its chunks.
 #pragma once
 
 #include <optional>

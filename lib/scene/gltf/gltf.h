@@ -1,25 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads glTF 2.0, as .gltf or .glb: every triangle as placed, and the cameras.
+// Reads glTF 2.0, as .gltf or .glb: every triangle and camera as placed.
+//
+// The room gltf/ shows the way of a file: glb.h splits a container, document/ parses the JSON,
+// buffers.h fetches the bytes, accessor.h reads their elements, nodes.h places the meshes,
+// primitive.h writes their triangles.
 #pragma once
 
 #include <string_view>
-#include <vector>
 
-#include "scene/gltf/nodes.h"
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
-// A perspective camera as placed: its node's transform, and its vertical angle in radians.
-struct GltfCamera {
-  GltfTransform transform;
-  double vfov = 0;
-};
-
-// `bytes` is the file at `path`. Points, lines and primitives without positions are ignored.
-// Errors: SCENE_SYNTAX, SCENE_UNSUPPORTED, SCENE_REFERENCE, and those of SceneWriter. Returns the
-// cameras.
-std::vector<GltfCamera> read_gltf(std::string_view bytes, std::string_view path,
-                                  SceneWriter& writer);
+// Reads a whole file; the caller finishes the writer, whose name is the file's path: buffers beside
+// the file are found by it. Points, lines and primitives without positions are ignored. Errors:
+// SCENE_SYNTAX, SCENE_UNSUPPORTED, SCENE_REFERENCE, and those of SceneWriter.
+void read_gltf(std::string_view bytes, SceneWriter& writer);
 
 }  // namespace sobb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See gltf_nodes.h.
+// See nodes.h.
 #include "scene/gltf/nodes.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ GltfTransform from_matrix(const std::vector<double>& columns) {
   return result;
 }
 
-// The rotation matrix of q / |q|; files round their unit quaternions.
+// The rotation matrix of q / |q|, since files round their unit quaternions.
 std::array<Vector, 3> rotation(double x, double y, double z, double w) {
   const double norm = x * x + y * y + z * z + w * w;
   const double s = norm > 0 ? 2 / norm : 0;
@@ -68,15 +68,16 @@ GltfTransform product(const GltfTransform& outer, const GltfTransform& inner) {
   return result;
 }
 
-class Walk {
+class NodeWalk {
  public:
-  Walk(const tinygltf::Model& model, const std::string& name)
+  NodeWalk(const tinygltf::Model& model, const std::string& name)
       : model_(model), name_(name), reached_(model.nodes.size()) {}
 
-  std::vector<GltfPlacedNode> run() {
+  std::vector<GltfPlacedNode> placed_nodes() {
     push(roots(), {});
     std::vector<GltfPlacedNode> result;
-    while (!waiting_.empty()) {  // a stack of our own: a file may nest its nodes as it likes
+    // A stack of our own, no recursion: a file may nest its nodes as deep as it likes.
+    while (!waiting_.empty()) {
       const GltfPlacedNode next = waiting_.back();
       waiting_.pop_back();
       result.push_back(next);
@@ -148,7 +149,7 @@ std::array<double, 3> GltfTransform::point(const std::array<double, 3>& p) const
 
 std::vector<GltfPlacedNode> place_gltf_nodes(const tinygltf::Model& model,
                                              const std::string& name) {
-  return Walk(model, name).run();
+  return NodeWalk(model, name).placed_nodes();
 }
 
 }  // namespace sobb

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node hierarchy of a glTF file (specification, section 3.5), flattened.
+// Places the nodes of a glTF file (specification, section 3.5) in the world.
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "scene/gltf/model.h"
+#include "scene/gltf/document/model.h"
 
 namespace sobb {
 
-// x -> linear x + translation, rows first.
+// x -> linear x + translation; `linear` is an array of rows.
 struct GltfTransform {
   std::array<std::array<double, 3>, 3> linear{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   std::array<double, 3> translation{};
-  bool identity = true;  // then points keep their very bits
+  bool identity = true;  // whoever transforms then keeps the points' bits
 
   std::array<double, 3> point(const std::array<double, 3>& p) const;
   std::array<double, 3> vector(const std::array<double, 3>& v) const;
@@ -25,9 +25,9 @@ struct GltfPlacedNode {
   GltfTransform transform;  // to the world
 };
 
-// Every node of the scene to show, parents before children, siblings in the file's order: of the
-// default scene, else of the first, else of all roots. Error SCENE_SYNTAX for a node that does not
-// exist or is reached twice, as in a cycle.
+// Every node of the scene to show, parents before children, siblings in the file's order. That is
+// the default scene, else the first, else all roots. Error SCENE_SYNTAX, with `name`, for a node
+// that does not exist or is reached twice, as in a cycle.
 std::vector<GltfPlacedNode> place_gltf_nodes(const tinygltf::Model& model, const std::string& name);
 
 }  // namespace sobb

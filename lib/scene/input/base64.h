@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base64 (RFC 4648, section 4), for data URIs.
+// Decodes Base64 (RFC 4648, section 4), for data URIs.
 #pragma once
 
 #include <optional>

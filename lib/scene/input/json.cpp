@@ -10,20 +10,23 @@ namespace sobb {
 namespace {
 
 constexpr uint64_t kMaxDepth = 128;
-constexpr uint64_t kMostUnasked = uint64_t{4} << 30;
+constexpr uint64_t kMostWithoutLimit = uint64_t{4} << 30;
 
-// What nlohmann::json takes, allocations rounded up: an element of an array that doubles, the old
-// one living until it is moved; a member of a std::map; what objects, arrays and strings are
-// allocated for beyond that.
-constexpr uint64_t kElementBytes = 3 * sizeof(nlohmann::json);
-constexpr uint64_t kMemberBytes = 112;
+// What nlohmann::json takes, allocations rounded up.
+constexpr uint64_t kElementBytes = 3 * sizeof(nlohmann::json);  // the array doubles, by a copy
+constexpr uint64_t kMemberBytes = 112;                          // in a std::map
+// What each is allocated for beyond its elements.
 constexpr uint64_t kObjectBytes = 64;
 constexpr uint64_t kArrayBytes = 48;
 constexpr uint64_t kStringBytes = 64;
-// The parser keeps a token twice, in arrays that double, and once more in an error's message.
+// The parser keeps a token twice, in arrays that double, and an error's message keeps it again.
 constexpr uint64_t kCopiesOfToken = 6;
 
 }  // namespace
+
+void refuse_json(const std::string& name, const std::string& place, const char* what) {
+  fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s %s", name.c_str(), place.c_str(), what);
+}
 
 uint64_t JsonSize::tree_bytes() const {
   return kElementBytes * (1 + commas + arrays) + kMemberBytes * colons + kObjectBytes * objects +
@@ -64,7 +67,7 @@ JsonSize measure_json(std::string_view text) {
 }
 
 void check_json_room(uint64_t bytes, const std::string& name, const SceneWriter& writer) {
-  if (!writer.has_limit() && bytes > kMostUnasked) {
+  if (!writer.has_limit() && bytes > kMostWithoutLimit) {
     fail(SOBB_ERROR_MEMORY_LIMIT,
          "%s: its JSON may take %llu bytes, more than the 4 GiB that it has without a memory limit",
          name.c_str(), static_cast<unsigned long long>(bytes));
@@ -79,12 +82,12 @@ nlohmann::json parse_json(std::string_view text, const std::string& name, SceneW
          static_cast<int>(kMaxDepth));
   }
   check_json_room(size.parse_bytes(), name, writer);
-  const auto ask = [&](int, nlohmann::json::parse_event_t, nlohmann::json&) {
+  const auto report = [&](int, nlohmann::json::parse_event_t, nlohmann::json&) {
     writer.work(1);
     return true;
   };
   try {
-    return nlohmann::json::parse(text.begin(), text.end(), ask);
+    return nlohmann::json::parse(text.begin(), text.end(), report);
   } catch (const nlohmann::json::exception& error) {
     fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s", name.c_str(), error.what());
   }

@@ -15,13 +15,13 @@
 namespace sobb {
 namespace {
 
-constexpr size_t kReadAtOnce = size_t(1) << 24;  // the caller is asked between them
+constexpr size_t kReadAtOnce = size_t(1) << 24;  // progress is reported between them
 
-std::string reason() { return std::generic_category().message(errno); }
+std::string system_reason() { return std::generic_category().message(errno); }
 
 class Descriptor {
  public:
-  // Not blocking, since opening a pipe would wait for its writer.
+  // O_NONBLOCK: opening a pipe would wait for its writer.
   explicit Descriptor(const std::string& path)
       : number_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {
@@ -42,7 +42,7 @@ FileBytes read_file(const std::string& path, SceneWriter& writer) {
   const Descriptor file(path);
   struct stat status {};
   if (file.number() < 0 || ::fstat(file.number(), &status) != 0) {
-    fail(SOBB_ERROR_FILE_OPEN, "%s: %s", path.c_str(), reason().c_str());
+    fail(SOBB_ERROR_FILE_OPEN, "%s: %s", path.c_str(), system_reason().c_str());
   }
   if (!S_ISREG(status.st_mode)) {
     fail(SOBB_ERROR_FILE_OPEN, "%s: not a regular file", path.c_str());
@@ -62,7 +62,7 @@ FileBytes read_file(const std::string& path, SceneWriter& writer) {
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) {
       fail(SOBB_ERROR_FILE_READ, "%s: after %zu of %zu bytes: %s", path.c_str(), done, bytes.size,
-           got < 0 ? reason().c_str() : "the file became shorter");
+           got < 0 ? system_reason().c_str() : "the file became shorter");
     }
     done += size_t(got);
   }

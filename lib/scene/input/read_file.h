@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole file in memory.
+// Reads a whole file into memory.
+//
+// The room input/ has what readers of different formats share: files, JSON, binary numbers, Base64
+// and progress. It knows model/ only.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -18,8 +21,8 @@ struct FileBytes {
   std::string_view view() const { return {data.get(), size}; }
 };
 
-// Errors: FILE_OPEN (missing, no permission, no regular file), FILE_READ, MEMORY_LIMIT for more
-// bytes than the writer has left, CANCELLED.
+// Does not hold() the file's bytes. Errors: FILE_OPEN (missing, no permission, no regular file),
+// FILE_READ, MEMORY_LIMIT for more bytes than the writer has left, CANCELLED.
 FileBytes read_file(const std::string& path, SceneWriter& writer);
 
 bool file_exists(const std::string& path);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 #include "scene/subdivision/manifold_corners.h"
 
 namespace sobb {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "base/progress.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace sobb {
 

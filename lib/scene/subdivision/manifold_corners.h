@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/scene.h"
-#include "scene/scene_writer.h"
+#include "scene/model/scene.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 

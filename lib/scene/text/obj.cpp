@@ -13,12 +13,14 @@
 namespace sobb {
 namespace {
 
-constexpr int kMaxVertexNumbers = 7;  // x y z, a weight, a colour
+constexpr int kMaxVertexNumbers = 7;  // x, y, z, a weight and a colour
 
 class ObjReader {
  public:
-  ObjReader(std::string_view bytes, const char* name, SceneWriter& writer)
-      : text_(bytes, name, &writer), writer_(writer), first_vertex_(writer.vertex_count()) {}
+  ObjReader(std::string_view bytes, SceneWriter& writer)
+      : text_(bytes, writer.name().c_str(), &writer),
+        writer_(writer),
+        first_vertex_(writer.vertex_count()) {}
 
   void read() {
     while (text_.next_line()) {
@@ -35,9 +37,7 @@ class ObjReader {
 
  private:
   void read_vertex() {
-    const float x = text_.number("x");
-    const float y = text_.number("y");
-    const float z = text_.number("z");
+    const auto [x, y, z] = text_.position();
     for (int i = 3; i < kMaxVertexNumbers && !text_.at_line_end(); ++i) {
       text_.number("a weight or a colour");
     }
@@ -58,7 +58,7 @@ class ObjReader {
     int64_t index = 0;
     const auto [after, error] = std::from_chars(word.data(), end, index);
     bool good = error != std::errc::invalid_argument;
-    // The indices of texture coordinate and normal: integers, or nothing.
+    // The indices of texture coordinate and normal are integers, or left out.
     const char* at = after;
     for (int part = 0; part < 2 && good && at != end && *at == '/'; ++part) {
       int64_t ignored = 0;
@@ -86,8 +86,6 @@ class ObjReader {
 
 }  // namespace
 
-void read_obj(std::string_view bytes, const char* name, SceneWriter& writer) {
-  ObjReader(bytes, name, writer).read();
-}
+void read_obj(std::string_view bytes, SceneWriter& writer) { ObjReader(bytes, writer).read(); }
 
 }  // namespace sobb

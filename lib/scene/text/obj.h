@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wavefront OBJ in: vertices (v), faces (f), and the groups (g, o) that name them.
+// Reads Wavefront OBJ: vertices (v), faces (f), and the groups (g, o) that name them.
 #pragma once
 
 #include <string_view>
 
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -18,6 +18,6 @@ namespace sobb {
 //
 // Errors, with the line: SCENE_SYNTAX for a malformed vertex or face, INDEX for a corner that names
 // no vertex so far; those of SceneWriter.
-void read_obj(std::string_view bytes, const char* name, SceneWriter& writer);
+void read_obj(std::string_view bytes, SceneWriter& writer);
 
 }  // namespace sobb

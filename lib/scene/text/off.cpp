@@ -15,14 +15,14 @@ namespace {
 constexpr uint64_t kLeastVertexBytes = 6;
 constexpr uint64_t kLeastFaceBytes = 8;
 
-// How many numbers follow a vertex's position.
+// How many numbers may follow a vertex's position.
 struct Extras {
   int least = 0;
   int most = 0;
 
-  void add(int fewest, int largest) {
-    least += fewest;
-    most += largest;
+  void add(int more_at_least, int more_at_most) {
+    least += more_at_least;
+    most += more_at_most;
   }
 };
 
@@ -55,8 +55,8 @@ Extras read_keyword(TextReader& text) {
   return extras;
 }
 
-// The counts may stand on the keyword's line.
-void start_counts(TextReader& text) {
+// Moves to the counts, which may stand on the keyword's line.
+void find_counts(TextReader& text) {
   TextReader ahead = text;
   if (ahead.word() == "BINARY") {
     text.fail_here(SOBB_ERROR_SCENE_UNSUPPORTED, "binary OFF is not supported");
@@ -64,16 +64,8 @@ void start_counts(TextReader& text) {
   if (text.at_line_end()) text.next_line_with_words();
 }
 
-void next_item(TextReader& text, const char* item, uint64_t index, uint64_t count) {
-  if (text.next_line_with_words()) return;
-  text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the file ends before %s %llu of %llu", item,
-                 static_cast<unsigned long long>(index), static_cast<unsigned long long>(count));
-}
-
 void read_vertex(TextReader& text, Extras extras, SceneWriter& writer) {
-  const float x = text.number("x");
-  const float y = text.number("y");
-  const float z = text.number("z");
+  const auto [x, y, z] = text.position();
   for (int i = 0; i < extras.most && (i < extras.least || !text.at_line_end()); ++i) {
     text.number("a normal, colour or texture coordinate");
   }
@@ -83,10 +75,10 @@ void read_vertex(TextReader& text, Extras extras, SceneWriter& writer) {
 
 }  // namespace
 
-void read_off(std::string_view bytes, const char* name, SceneWriter& writer) {
-  TextReader text(bytes, name, &writer);
+void read_off(std::string_view bytes, SceneWriter& writer) {
+  TextReader text(bytes, writer.name().c_str(), &writer);
   const Extras extras = read_keyword(text);
-  start_counts(text);
+  find_counts(text);
   const uint64_t vertices = text.count("the count of vertices", UINT32_MAX);
   const uint64_t faces = text.count("the count of faces", UINT32_MAX);
   text.count("the count of edges", UINT64_MAX);
@@ -103,12 +95,12 @@ void read_off(std::string_view bytes, const char* name, SceneWriter& writer) {
 
   const uint64_t first_vertex = writer.vertex_count();
   for (uint64_t i = 0; i < vertices; ++i) {
-    next_item(text, "vertex", i, vertices);
+    text.next_item("vertex", i, vertices);
     read_vertex(text, extras, writer);
   }
   std::vector<uint64_t> corners;
   for (uint64_t i = 0; i < faces; ++i) {
-    next_item(text, "face", i, faces);
+    text.next_item("face", i, faces);
     corners.clear();
     for (uint64_t left = text.count("the count of corners", UINT32_MAX); left > 0; --left) {
       writer.push_corner(corners, first_vertex + text.vertex_index(vertices));

@@ -12,7 +12,8 @@
 namespace sobb {
 namespace {
 
-// What a file's elements mean. Properties are positions in their element's list.
+// Which of a file's elements are the vertices and faces. Properties are indices into their
+// element's list.
 struct PlyLayout {
   const PlyElement* vertices = nullptr;
   size_t xyz[3] = {};
@@ -20,7 +21,7 @@ struct PlyLayout {
   size_t corners = 0;
 };
 
-// The element of that name, if there is one; `text` is for messages.
+// The element of that name, or null; `text` is for messages.
 const PlyElement* find_element(const PlyHeader& header, std::string_view name,
                                const TextReader& text) {
   const PlyElement* found = nullptr;
@@ -35,7 +36,7 @@ const PlyElement* find_element(const PlyHeader& header, std::string_view name,
   return found;
 }
 
-// The one property of the element that goes by either name.
+// The index of the element's one property of either name.
 size_t find_property(const PlyElement& element, std::string_view name, std::string_view other_name,
                      const TextReader& text) {
   size_t found = 0;
@@ -88,7 +89,7 @@ void skip_property(const PlyProperty& property, Items& items) {
 
 template <class Items>
 void skip_element(const PlyElement& element, Items& items) {
-  if (element.properties.empty()) return;  // its items take no bytes
+  if (element.properties.empty()) return;  // the items take no bytes
   for (uint64_t i = 0; i < element.count; ++i) {
     items.begin(element, i);
     for (const PlyProperty& property : element.properties) skip_property(property, items);
@@ -118,7 +119,7 @@ void read_vertices(const PlyLayout& layout, Items& items, SceneWriter& writer) {
   }
 }
 
-// The vertices are the last that the writer has.
+// The file's vertices are the last that the writer has.
 template <class Items>
 void read_faces(const PlyLayout& layout, Items& items, SceneWriter& writer) {
   const std::vector<PlyProperty>& properties = layout.faces->properties;
@@ -147,7 +148,7 @@ void read_elements(const PlyHeader& header, const PlyLayout& layout, Items items
                    SceneWriter& writer) {
   writer.expect(layout.vertices == nullptr ? 0 : layout.vertices->count,
                 layout.faces == nullptr ? 0 : layout.faces->count);
-  // Faces that come before their vertices are passed over, and read last.
+  // Faces that come before their vertices are passed over at first, and read last.
   std::optional<Items> early_faces;
   bool have_vertices = layout.vertices == nullptr;
   for (const PlyElement& element : header.elements) {
@@ -167,8 +168,8 @@ void read_elements(const PlyHeader& header, const PlyLayout& layout, Items items
 
 }  // namespace
 
-void read_ply(std::string_view bytes, const char* name, SceneWriter& writer) {
-  TextReader text(bytes, name, &writer);
+void read_ply(std::string_view bytes, SceneWriter& writer) {
+  TextReader text(bytes, writer.name().c_str(), &writer);
   const PlyHeader header = read_ply_header(text);
   const PlyLayout layout = find_layout(header, text);
   if (header.encoding == PlyEncoding::kAscii) {
@@ -177,8 +178,7 @@ void read_ply(std::string_view bytes, const char* name, SceneWriter& writer) {
   }
   const std::endian order =
       header.encoding == PlyEncoding::kLittleEndian ? std::endian::little : std::endian::big;
-  read_elements(header, layout, PlyBinaryItems(text.text_after_line(), order, name, writer),
-                writer);
+  read_elements(header, layout, PlyBinaryItems(text.text_after_line(), order, writer), writer);
 }
 
 }  // namespace sobb

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// PLY in: ASCII, and binary of either order of bytes.
+// Reads PLY: ASCII, and binary of either order of bytes.
 #pragma once
 
 #include <string_view>
 
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -18,6 +18,6 @@ namespace sobb {
 // header or line, a face of fewer than three corners, counts that the file cannot hold, data
 // missing or left over; SCENE_UNSUPPORTED for triangle strips and versions but 1.0; INDEX for a
 // corner that names no vertex; those of SceneWriter.
-void read_ply(std::string_view bytes, const char* name, SceneWriter& writer);
+void read_ply(std::string_view bytes, SceneWriter& writer);
 
 }  // namespace sobb

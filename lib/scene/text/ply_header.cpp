@@ -22,14 +22,6 @@ PlyType read_type(TextReader& text) {
   text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" is no type of a property", quote(word).c_str());
 }
 
-std::string read_name(TextReader& text, const char* what) {
-  const std::string_view word = text.word();
-  if (word.empty()) {
-    text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the line ends where %s should be", what);
-  }
-  return std::string(word);
-}
-
 PlyEncoding read_encoding(TextReader& text) {
   const std::string_view word = text.word();
   PlyEncoding encoding = PlyEncoding::kAscii;
@@ -57,12 +49,11 @@ PlyProperty read_property(TextReader& text) {
     }
   }
   property.type = read_type(text);
-  property.name = read_name(text, "a property's name");
+  property.name = text.required_word("a property's name");
   return property;
 }
 
-// The bytes that one item takes at least. In ASCII every value has a character and a blank or a
-// line's end.
+// The fewest bytes of an item. In ASCII every value has a character, and a blank or a line's end.
 uint64_t least_bytes(const PlyElement& element, PlyEncoding encoding) {
   if (encoding == PlyEncoding::kAscii) return 2 * element.properties.size();
   uint64_t bytes = 0;
@@ -72,6 +63,7 @@ uint64_t least_bytes(const PlyElement& element, PlyEncoding encoding) {
   return bytes;
 }
 
+// Refuses elements that the rest of the file cannot hold.
 void check_counts(const PlyHeader& header, const TextReader& text) {
   // The last line of text may lack its end.
   uint64_t left = text.text_after_line().size() + (header.encoding == PlyEncoding::kAscii ? 1 : 0);
@@ -122,7 +114,7 @@ PlyHeader read_ply_header(TextReader& text) {
       has_format = true;
     } else if (keyword == "element") {
       PlyElement& element = header.elements.emplace_back();
-      element.name = read_name(text, "an element's name");
+      element.name = text.required_word("an element's name");
       element.count = text.count("the count of an element", UINT64_MAX);
     } else if (keyword == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(read_property(text));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The header of a PLY file: its encoding, and the elements and properties that its data have.
+// Reads the header of a PLY file: its encoding, and the elements and properties of its data.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ struct PlyProperty {
   std::string name;
   PlyType type = PlyType::kFloat;  // of a list's values
   bool list = false;
-  PlyType count_type = PlyType::kUint8;  // of a list's length: an integer
+  PlyType count_type = PlyType::kUint8;  // of a list's length; an integer type
 };
 
 struct PlyElement {
@@ -36,7 +36,7 @@ struct PlyHeader {
   std::vector<PlyElement> elements;  // in the order of their data
 };
 
-// Reads from the first line to end_header, where `text` then stands.
+// Reads from the first line to that of end_header, where it leaves `text`.
 //
 // Errors, with the line: SCENE_SYNTAX for a malformed line or counts of elements that the rest of
 // the file cannot hold; SCENE_UNSUPPORTED for another version than 1.0.

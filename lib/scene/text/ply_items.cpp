@@ -9,13 +9,6 @@
 
 namespace sobb {
 
-void PlyTextItems::begin(const PlyElement& element, uint64_t index) {
-  if (text_.next_line_with_words()) return;
-  text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the file ends before %s %llu of %llu",
-                  quote(element.name).c_str(), static_cast<unsigned long long>(index),
-                  static_cast<unsigned long long>(element.count));
-}
-
 void PlyTextItems::expect_end_of_file() {
   if (!text_.next_line_with_words()) return;
   text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "more text than the header declares");
@@ -27,7 +20,7 @@ const char* PlyBinaryItems::take(uint64_t bytes) {
   }
   const char* taken = at_;
   at_ += bytes;
-  pace_.at(at_);
+  progress_.at(at_);
   return taken;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The items of a PLY file's elements, value by value: one class for its text, one for its bytes,
-// with the same functions. Either is a cursor that may be copied, to read a part twice.
+// Reads the items of a PLY file's elements value by value: one class reads text, the other bytes,
+// with the same functions. Both are cursors that may be copied, to read a part twice.
 #pragma once
 
 #include <bit>
@@ -8,20 +8,22 @@
 #include <string>
 #include <string_view>
 
-#include "scene/input/pace.h"
+#include "scene/input/read_progress.h"
 #include "scene/text/ply_header.h"
 #include "scene/text/text_reader.h"
 
 namespace sobb {
 
-// An item a line.
+// ASCII: one item per line.
 class PlyTextItems {
  public:
   // `text` stands on the last line of the header.
   explicit PlyTextItems(const TextReader& text) : text_(text) {}
 
-  // Every item is read between these two, property by property.
-  void begin(const PlyElement& element, uint64_t index);
+  // Every item is read between these two calls, property by property.
+  void begin(const PlyElement& element, uint64_t index) {
+    text_.next_item(element.name, index, element.count);
+  }
   void end() { text_.expect_line_end(); }
 
   float number(const PlyProperty& property) { return text_.number(property.name.c_str()); }
@@ -40,15 +42,15 @@ class PlyTextItems {
   TextReader text_;
 };
 
-// Values packed without gaps.
+// Binary: values packed without gaps.
 class PlyBinaryItems {
  public:
-  PlyBinaryItems(std::string_view bytes, std::endian order, const char* name, SceneWriter& writer)
+  PlyBinaryItems(std::string_view bytes, std::endian order, SceneWriter& writer)
       : at_(bytes.data()),
         end_(bytes.data() + bytes.size()),
-        pace_(bytes, &writer),
+        progress_(bytes, &writer),
         order_(order),
-        name_(name) {}
+        name_(writer.name().c_str()) {}
 
   void begin(const PlyElement& element, uint64_t index) {
     element_ = &element;
@@ -65,13 +67,13 @@ class PlyBinaryItems {
   void expect_end_of_file() const;
 
  private:
-  // The next bytes; SCENE_SYNTAX where they are not there.
+  // The next `bytes` bytes; SCENE_SYNTAX where the file ends before.
   const char* take(uint64_t bytes);
-  double value(PlyType type);  // exact, of every type
+  double value(PlyType type);  // exact for every type
 
   const char* at_;
   const char* end_;
-  Pace pace_;
+  ReadProgress progress_;
   std::endian order_;
   const char* name_;
   const PlyElement* element_ = nullptr;

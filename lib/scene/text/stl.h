@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// STL in: binary and ASCII.
+// Reads STL: binary and ASCII.
 #pragma once
 
 #include <string_view>
 
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -17,6 +17,6 @@ namespace sobb {
 //
 // Errors, with the line or the triangle: SCENE_SYNTAX for a malformed line, a facet of other than
 // three vertices, an unended solid, or a size that fits neither form; those of SceneWriter.
-void read_stl(std::string_view bytes, const char* name, SceneWriter& writer);
+void read_stl(std::string_view bytes, SceneWriter& writer);
 
 }  // namespace sobb

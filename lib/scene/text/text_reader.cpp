@@ -26,8 +26,8 @@ std::string_view without_plus(std::string_view word) {
   return plus ? word.substr(1) : word;
 }
 
-// Whether a well-formed number, known to be out of double's range, is below rather than above it:
-// the power of ten of its first digit other than zero decides.
+// Whether a well-formed number that is out of double's range is below it rather than above: the
+// power of ten of its first digit other than zero decides.
 bool is_tiny(std::string_view number) {
   int64_t power = 0;
   bool point = false;
@@ -61,7 +61,7 @@ std::errc parse_integer(std::string_view word, T& value) {
 }  // namespace
 
 TextReader::TextReader(std::string_view bytes, const char* name, SceneWriter* writer)
-    : at_(bytes.data()), end_(bytes.data() + bytes.size()), pace_(bytes, writer), name_(name) {
+    : at_(bytes.data()), end_(bytes.data() + bytes.size()), progress_(bytes, writer), name_(name) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
 }
@@ -80,7 +80,7 @@ const char* TextReader::after_line_end(const char* line_end) const {
 bool TextReader::next_line() {
   if (line_ > 0) at_ = after_line_end(line_end(at_));
   if (at_ == end_) return false;
-  pace_.at(at_);
+  progress_.at(at_);
   ++line_;
   return true;
 }
@@ -92,13 +92,19 @@ bool TextReader::next_line_with_words() {
   return false;
 }
 
+void TextReader::next_item(std::string_view item, uint64_t index, uint64_t count) {
+  if (next_line_with_words()) return;
+  fail_here(SOBB_ERROR_SCENE_SYNTAX, "the file ends before %s %llu of %llu", quote(item).c_str(),
+            static_cast<unsigned long long>(index), static_cast<unsigned long long>(count));
+}
+
 bool TextReader::ends_word(const char* p) const {
   if (p == end_ || is_blank(*p) || is_line_end(*p)) return true;
   return *p == '\\' && (p + 1 == end_ || is_line_end(p[1]));
 }
 
 void TextReader::skip_blanks() {
-  pace_.at(at_);
+  progress_.at(at_);
   for (; at_ != end_ && !is_line_end(*at_) && ends_word(at_); ++at_) {
     if (*at_ != '\\' || at_ + 1 == end_) continue;
     at_ = after_line_end(at_ + 1) - 1;
@@ -116,6 +122,12 @@ std::string_view TextReader::word() {
   const char* begin = at_;
   while (!ends_word(at_)) ++at_;
   return {begin, static_cast<size_t>(at_ - begin)};
+}
+
+std::string_view TextReader::required_word(const char* what) {
+  const std::string_view found = word();
+  if (found.empty()) refuse_word(found, what);
+  return found;
 }
 
 std::string_view TextReader::rest_of_line() {
@@ -141,6 +153,8 @@ float TextReader::number(const char* what) {
   return value;
 }
 
+std::array<float, 3> TextReader::position() { return {number("x"), number("y"), number("z")}; }
+
 uint64_t TextReader::count(const char* what, uint64_t max) {
   const std::string_view text = word();
   uint64_t value = 0;
@@ -165,9 +179,7 @@ uint64_t TextReader::vertex_index(uint64_t vertices) {
 }
 
 void TextReader::skip(uint64_t words, const char* what) {
-  for (; words > 0; --words) {
-    if (word().empty()) refuse_word({}, what);
-  }
+  for (; words > 0; --words) required_word(what);
 }
 
 void TextReader::expect_line_end() {

@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text file as its readers see it: lines, the words and numbers on them, and "line N" for
-// messages.
+// TextReader is a text file as its readers see it: lines, the words and numbers on them, and
+// "line N" for messages.
+//
+// The room text/ reads the formats that are text or begin with some: OBJ, OFF, PLY, STL. Each has a
+// header with its contract, and one function of the same form, which load_scene() finds by the
+// file's ending (formats.cpp).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "scene/input/pace.h"
+#include "scene/input/read_progress.h"
 #include "sobb/sobb.h"
 
 namespace sobb {
 
-// A cursor over text: never past its end, never back, so that reading takes linear time. It may be
-// copied, to read a part twice.
+// A cursor over text, which never goes past its end and never back, so that reading takes linear
+// time. It may be copied, to read a part twice.
 //
 // Lines end with LF, CR LF or CR. Words are separated by blanks; a backslash before a line's end is
 // a blank that joins two lines (OBJ); a word that begins with # ends the line (OBJ, OFF). In the
 // data lines of PLY and STL neither occurs.
 class TextReader {
  public:
-  // `name` is the source, for messages; `writer`, if any, is told how far reading is. Borrowed all.
+  // `name` is the source, for messages; `writer`, if any, learns how far reading is. All arguments
+  // are borrowed.
   TextReader(std::string_view bytes, const char* name, SceneWriter* writer = nullptr);
 
   // Moves to the next line, at first to line 1; false at the end of the text. What is left of the
@@ -28,9 +34,13 @@ class TextReader {
   bool next_line();
   // Moves to the next line that has a word; false where there is none.
   bool next_line_with_words();
+  // The same for the line of item `index` of `count`, named in the message where the text ends.
+  void next_item(std::string_view item, uint64_t index, uint64_t count);
 
   // The next word of the line; empty at the line's end.
   std::string_view word();
+  // The next word; SCENE_SYNTAX at the line's end. `what` is what was expected there, as below.
+  std::string_view required_word(const char* what);
   // The line from here, without blanks around it, # and backslashes included.
   std::string_view rest_of_line();
   bool at_line_end();
@@ -38,6 +48,8 @@ class TextReader {
   // The next word as a number; SCENE_SYNTAX where it is none. `what` is what was expected there.
   // Beyond float's range: the largest float, which the scene's limit then refuses.
   float number(const char* what);
+  // The next three words as numbers x, y and z.
+  std::array<float, 3> position();
   // The next word as a number from 0 to `max`, where more is SCENE_SYNTAX too.
   uint64_t count(const char* what, uint64_t max);
   // The next word as the index of one of `vertices` vertices; INDEX where there is no such vertex.
@@ -47,7 +59,7 @@ class TextReader {
 
   void expect_line_end();
   void expect_word(std::string_view expected);  // ASCII letters in either case
-  bool take_word(std::string_view expected);    // whether it is the next one; else stays before it
+  bool take_word(std::string_view expected);    // false where it is not next, and stays before it
 
   // The text after the current line.
   std::string_view text_after_line() const;
@@ -68,7 +80,7 @@ class TextReader {
 
   const char* at_;
   const char* end_;
-  Pace pace_;
+  ReadProgress progress_;
   const char* name_;
   uint64_t line_ = 0;  // 0 before the first
 };

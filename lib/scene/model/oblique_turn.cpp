@@ -1,35 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // See oblique_turn.h.
-#include "scene/oblique_turn.h"
+#include "scene/model/oblique_turn.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "base/error.h"
-#include "scene/measure.h"
+#include "scene/model/measure.h"
 
 namespace sobb {
 namespace {
 
 constexpr double kMostDegrees = 360;
-constexpr size_t kNumbersAtOnce = 3 << 18;  // the caller is asked between them
-constexpr float kLargest = 0x1p60F;
-
-Vec3 widen(const float* v) { return {v[0], v[1], v[2]}; }
-
-void narrow(Vec3 v, float* out) {
-  out[0] = float(v.x);
-  out[1] = float(v.y);
-  out[2] = float(v.z);
-}
+constexpr size_t kNumbersAtOnce = 3 << 18;  // progress is reported between them
 
 }  // namespace
 
 ObliqueTurn::ObliqueTurn(double degrees, Vec3 centre)
     : identity_(degrees == 0), angle_(sin_cos(degrees / 360)), centre_(centre) {}
 
-// About the axis a: v cos + (a x v) sin + a (a . v) (1 - cos) (Rodrigues).
+// Rodrigues: about the unit axis a, v goes to v cos + (a x v) sin + a (a . v) (1 - cos).
 Vec3 ObliqueTurn::vector(Vec3 v) const {
   if (identity_) return v;
   const Vec3 axis = normalized({1, 2, 3});
@@ -58,13 +49,13 @@ double parse_degrees(const std::string& source, std::string_view text) {
 }
 
 void turn_scene(const std::string& source, double degrees, Scene& scene, Progress* progress) {
-  const Vec3 centre = 0.5 * (widen(scene.bounds_min.data()) + widen(scene.bounds_max.data()));
-  const ObliqueTurn turn(degrees, centre);
+  const ObliqueTurn turn(degrees, box_centre(scene));
   for (size_t i = 0; i < scene.vertices.size(); i += 3) {
     if (progress != nullptr && i % kNumbersAtOnce == 0) progress->check(1, 1, 1);
     float* vertex = &scene.vertices[i];
     narrow(turn.point(widen(vertex)), vertex);
-    if (std::any_of(vertex, vertex + 3, [](float x) { return std::fabs(x) > kLargest; })) {
+    if (std::any_of(vertex, vertex + 3,
+                    [](float x) { return std::fabs(x) > kLargestCoordinate; })) {
       fail(SOBB_ERROR_TOO_LARGE, "%s: vertex %zu, turned, is beyond 2^60", source.c_str(), i / 3);
     }
   }

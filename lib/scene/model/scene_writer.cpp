@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See scene_writer.h.
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,25 +8,25 @@
 #include <utility>
 
 #include "base/error.h"
-#include "scene/input/utf8.h"
-#include "scene/measure.h"
+#include "scene/model/measure.h"
+#include "scene/model/utf8.h"
 
 namespace sobb {
 namespace {
 
 constexpr uint64_t kMaxVertices = uint64_t(1) << 32;
 
-// The caller is asked so often, in vertices: some milliseconds.
-constexpr uint64_t kToldEvery = 1 << 16;
+// Progress is reported every so many vertices: some milliseconds.
+constexpr uint64_t kReportEvery = 1 << 16;
 
-// Reading ends here; the rest is measuring what was read.
-constexpr double kReadEnd = 0.9;
+// The share of progress that reading takes; the rest is measuring what was read.
+constexpr double kReadShare = 0.9;
 
-// A mesh in an array that doubles, the old one living until it is moved.
+// What a mesh takes in an array that doubles: the old array lives until it is moved.
 constexpr uint64_t kMeshBytes = 3 * sizeof(SceneMesh);
 
-// Half as much again for an array of triples that is full, so that growing stays cheap.
-uint64_t roomy(uint64_t size, uint64_t max_triples) {
+// The size to which a full array of triples grows: half as much again, so that growing stays cheap.
+uint64_t grown_size(uint64_t size, uint64_t max_triples) {
   return std::min(3 * max_triples, std::max<uint64_t>(3 * 64, size + size / 2 + 3));
 }
 
@@ -37,7 +37,7 @@ SceneWriter::SceneWriter(std::string name, uint64_t memory_limit, Scene& scene, 
       memory_limit_(memory_limit),
       scene_(scene),
       progress_(progress),
-      until_told_(kToldEvery) {}
+      until_report_(kReportEvery) {}
 
 void SceneWriter::hold(uint64_t bytes) {
   check_room(bytes);
@@ -50,12 +50,12 @@ void SceneWriter::check_room(uint64_t bytes) const {
 
 void SceneWriter::reach(double fraction) {
   reached_ = fraction;
-  tell();
+  report();
 }
 
-void SceneWriter::tell() {
-  until_told_ = kToldEvery;
-  if (progress_ != nullptr) progress_->check(0, kReadEnd, reached_);
+void SceneWriter::report() {
+  until_report_ = kReportEvery;
+  if (progress_ != nullptr) progress_->check(0, kReadShare, reached_);
 }
 
 uint64_t SceneWriter::memory_left() const {
@@ -83,7 +83,7 @@ void SceneWriter::begin_mesh(std::string name) {
 void SceneWriter::end_mesh() {
   const uint64_t triangles = scene_.indices.size() / 3;
   if (scene_.meshes.empty()) {
-    // Triangles that came before any mesh was begun are a mesh too.
+    // Triangles that come before any mesh is begun are a mesh too.
     if (triangles > 0) scene_.meshes.push_back({"", 0, triangles});
     return;
   }
@@ -114,15 +114,16 @@ void SceneWriter::refuse_polygon(std::span<const uint64_t> corners,
        static_cast<unsigned long long>(vertex_count()));
 }
 
-// Makes room for `size` elements where the limit allows: the old elements live until they are
-// moved, so the new ones come on top.
+// Makes room for `size` elements where the limit allows it. The old elements live until they are
+// moved, so all new ones come on top of them.
 template <class T>
 void SceneWriter::reserve(std::vector<T>& array, uint64_t size) {
   check_room(size * sizeof(T));
   array.reserve(size);
 }
 
-// Its capacity counts as held, unlike those of the scene's arrays, which memory_left() knows.
+// The capacity of a reader's array counts as held; memory_left() counts those of the scene's
+// itself.
 void SceneWriter::grow_corners(std::vector<uint64_t>& corners) {
   const uint64_t old = corners.capacity() * sizeof(uint64_t);
   reserve(corners, std::max<uint64_t>(64, 2 * corners.size()));
@@ -134,7 +135,7 @@ void SceneWriter::grow_vertices() {
   if (size / 3 >= kMaxVertices) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 vertices", name_.c_str());
   }
-  reserve(scene_.vertices, roomy(size, kMaxVertices));
+  reserve(scene_.vertices, grown_size(size, kMaxVertices));
 }
 
 void SceneWriter::grow_indices() {
@@ -142,7 +143,7 @@ void SceneWriter::grow_indices() {
   if (size / 3 >= SOBB_MAX_TRIANGLES) {
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^32 - 3 triangles", name_.c_str());
   }
-  reserve(scene_.indices, roomy(size, SOBB_MAX_TRIANGLES));
+  reserve(scene_.indices, grown_size(size, SOBB_MAX_TRIANGLES));
 }
 
 void SceneWriter::check_counts(uint64_t vertices, uint64_t triangles) const {
@@ -154,7 +155,7 @@ void SceneWriter::check_counts(uint64_t vertices, uint64_t triangles) const {
 
 void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
   check_counts(vertices, triangles);
-  // Where a file declares its meshes one by one, each must not move the arrays again.
+  // A file may declare its meshes one by one: growing by half keeps each from moving the arrays.
   const auto enough = [](uint64_t size, uint64_t more) {
     return size == 0 ? 3 * more : std::max(size + 3 * more, size + size / 2);
   };
@@ -169,7 +170,7 @@ void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
 void SceneWriter::finish() {
   end_mesh();
   if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
-  measure(scene_, progress_, kReadEnd);
+  measure(scene_, progress_, kReadShare);
 }
 
 }  // namespace sobb

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an importer hands over its triangles: checked as they come, so that no importer repeats it.
+// SceneWriter takes the triangles of a reader and checks them as they come, so that no reader
+// repeats the checks.
 #pragma once
 
 #include <concepts>
@@ -9,43 +10,46 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
 
 namespace sobb {
 
-// Fills a scene. `name` is the source, for messages; `memory_limit` (0 for none) bounds the bytes
-// that the scene and its importer may take, checked before they do. `progress`, if any, is asked
-// now and then whether to go on, whatever the importer is at; it is told how far that is.
+// Fills a scene. `name` is the source, for messages. `memory_limit` (0 for none) bounds the bytes
+// that the scene and its reader hold, and is checked before they are taken. `progress`, if any, is
+// called every few milliseconds of whatever the reader does, and may cancel it.
+//
+// Every function that adds, works or reports may throw CANCELLED.
 class SceneWriter {
  public:
   SceneWriter(std::string name, uint64_t memory_limit, Scene& scene, Progress* progress = nullptr);
 
-  // The importer itself holds `bytes` more (the file, its buffers): they count against the limit.
-  void hold(uint64_t bytes);
-  // Refuses what the importer wants to hold for a while where there is no room for it.
-  void check_room(uint64_t bytes) const;
-
   const std::string& name() const { return name_; }
-  bool has_limit() const { return memory_limit_ != 0; }
-  uint64_t memory_left() const;  // what the importer may yet hold; the largest number for no limit
 
-  // The importer has come so far, from 0 to 1. Error CANCELLED, as of all that adds to the scene.
+  // The reader holds `bytes` more of its own (the file, its buffers): they count against the limit.
+  // Error MEMORY_LIMIT.
+  void hold(uint64_t bytes);
+  // Error MEMORY_LIMIT where there is no room for what the reader is to hold for a while.
+  void check_room(uint64_t bytes) const;
+  bool has_limit() const { return memory_limit_ != 0; }
+  uint64_t memory_left() const;  // what the reader may yet hold; the largest number for no limit
+
+  // The reader has come so far in its source, from 0 to 1.
   void reach(double fraction);
-  // It did work that adds nothing, of about as much as so many vertices.
+  // The reader did work that adds nothing, about as much as that many vertices are.
   void work(uint64_t vertices) {
-    if (vertices >= until_told_) {
-      tell();
+    if (vertices >= until_report_) {
+      report();
     } else {
-      until_told_ -= vertices;
+      until_report_ -= vertices;
     }
   }
 
-  // Starts a mesh; triangles that follow are its own. A mesh without triangles leaves no trace.
+  // Starts a mesh, which the triangles that follow belong to. A mesh without triangles is dropped.
   void begin_mesh(std::string name);
 
-  // Adds a vertex. `place` says where in the source, as in "line 12" or "mesh 3, vertex 7": text,
-  // or a function that makes it, called for an error only, where making it would cost too much.
-  // Errors: NOT_FINITE, TOO_LARGE (beyond 2^60), MEMORY_LIMIT.
+  // Adds a vertex. `place` says where in the source it is, as in "line 12" or "mesh 3, vertex 7":
+  // text, or, where making that for every vertex would cost too much, a function that makes it for
+  // an error. Errors: NOT_FINITE, TOO_LARGE (beyond 2^60), MEMORY_LIMIT.
   void add_vertex(float x, float y, float z, const char* place) {
     add_vertex(x, y, z, [place] { return std::string(place); });
   }
@@ -58,7 +62,8 @@ class SceneWriter {
     vertices.insert(vertices.end(), {x, y, z});
   }
 
-  // Vertices so far, over all meshes: what indices of a mesh are relative to is the importer's.
+  // The vertices so far, over all meshes. Indices that a mesh counts from its own first vertex are
+  // made absolute by the reader.
   uint64_t vertex_count() const { return scene_.vertices.size() / 3; }
 
   // Adds a polygon of at least three corners as a fan about its first: corners are indices into
@@ -82,26 +87,31 @@ class SceneWriter {
     }
   }
 
-  // Appends to an importer's array of corners, which a hostile file may make as long as itself.
+  // Appends to a reader's array of corners, which a hostile file may make as long as itself.
   void push_corner(std::vector<uint64_t>& corners, uint64_t corner) {
     if (corners.size() == corners.capacity()) grow_corners(corners);
     corners.push_back(corner);
   }
 
-  // So many vertices and triangles more will come: refuses too many (TOO_LARGE, MEMORY_LIMIT)
-  // before they do. A file that declares more than it can hold must be refused by its reader first.
+  // Makes room for that many more vertices and triangles, and refuses too many before they come
+  // (TOO_LARGE, MEMORY_LIMIT). A reader first refuses counts that its file cannot hold.
   void expect(uint64_t vertices, uint64_t triangles);
 
   // The first part of expect(), without making room. Error TOO_LARGE.
   void check_counts(uint64_t vertices, uint64_t triangles) const;
 
-  // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds. Errors
-  // CANCELLED, EMPTY where no triangle came.
+  // Keeps a camera of the source, from which views can be made once the scene is measured.
+  void add_camera(const SceneCamera& camera) { cameras_.push_back(camera); }
+  const std::vector<SceneCamera>& cameras() const { return cameras_; }
+
+  // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds. Error
+  // EMPTY where no triangle came.
   void finish();
 
  private:
-  static constexpr float kLargest = 0x1p60F;
-  static bool in_range(float x) { return x >= -kLargest && x <= kLargest; }  // not for NaN
+  static bool in_range(float x) {  // not for NaN
+    return x >= -kLargestCoordinate && x <= kLargestCoordinate;
+  }
 
   [[noreturn]] void refuse_vertex(float x, float y, float z, const std::string& place) const;
   [[noreturn]] void refuse_polygon(std::span<const uint64_t> corners,
@@ -110,7 +120,7 @@ class SceneWriter {
   void grow_vertices();
   void grow_indices();
   void grow_corners(std::vector<uint64_t>& corners);
-  void tell();
+  void report();
   void end_mesh();
   template <class T>
   void reserve(std::vector<T>& array, uint64_t size);
@@ -119,9 +129,10 @@ class SceneWriter {
   uint64_t memory_limit_;
   uint64_t held_ = 0;
   Scene& scene_;
+  std::vector<SceneCamera> cameras_;
   Progress* progress_;
   double reached_ = 0;
-  uint64_t until_told_;
+  uint64_t until_report_;  // vertices' worth of work
 };
 
 }  // namespace sobb

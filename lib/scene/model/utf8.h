@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names come from files as any bytes; the C interface promises UTF-8.
+// Makes names UTF-8, as the C interface promises: files hold any bytes.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See measure.h.
-#include "scene/measure.h"
+#include "scene/model/measure.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,10 +8,10 @@
 namespace sobb {
 namespace {
 
-constexpr size_t kIndicesAtOnce = 3 << 18;  // the caller is asked between them
+constexpr size_t kIndicesAtOnce = 3 << 18;  // progress is reported between them
 
-// Twice the triangle's area is |(b - a) x (c - a)|; the products are exact in double but for the
-// edges' own rounding.
+// Twice the triangle's area is |(b - a) x (c - a)|. Only the edges are rounded: products of floats
+// are exact in double.
 bool has_area(const float* a, const float* b, const float* c) {
   double e[3];
   double f[3];
@@ -43,6 +43,14 @@ void measure(Scene& scene, Progress* progress, double progress_begin) {
     }
     scene.degenerate_count += has_area(corners[0], corners[1], corners[2]) ? 0 : 1;
   }
+}
+
+Vec3 box_centre(const Scene& scene) {
+  return 0.5 * (widen(scene.bounds_min.data()) + widen(scene.bounds_max.data()));
+}
+
+double half_diagonal(const Scene& scene) {
+  return length(0.5 * (widen(scene.bounds_max.data()) - widen(scene.bounds_min.data())));
 }
 
 }  // namespace sobb

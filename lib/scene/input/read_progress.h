@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a reader tells, once a MiB of its file, how far it has come.
+// Reports, once per MiB of a file, how far its reader has come.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-#include "scene/scene_writer.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
-// May be copied: readers look ahead, and read parts twice.
-class Pace {
+// It may be copied: readers look ahead, and read parts twice.
+class ReadProgress {
  public:
-  // `bytes` is the whole; without a writer nobody is told.
-  Pace(std::string_view bytes, SceneWriter* writer)
+  // `bytes` is the whole file. Without a writer nothing is reported.
+  ReadProgress(std::string_view bytes, SceneWriter* writer)
       : begin_(bytes.data()), end_(bytes.data() + bytes.size()), writer_(writer) {
     next_ = writer == nullptr ? end_ : begin_;
   }
 
-  // The reader is at this byte. Throws where the caller wants to stop.
+  // The reader is at this byte. Error CANCELLED.
   void at(const char* place) {
-    if (place > next_) tell(place);
+    if (place > next_) report(place);
   }
 
  private:
-  void tell(const char* place) {
+  void report(const char* place) {
     constexpr int64_t kStep = 1 << 20;
     if (writer_ == nullptr) return;
     writer_->reach(static_cast<double>(place - begin_) / static_cast<double>(end_ - begin_));

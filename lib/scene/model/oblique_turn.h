@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turned scenes, SOURCE@DEGREES: models along the axes flatter axis-aligned boxes, and a turn about
-// an oblique axis takes that away.
+// Turned scenes, SOURCE@DEGREES. Models along the axes flatter axis-aligned boxes; a turn about an
+// oblique axis takes that advantage away.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "base/progress.h"
-#include "scene/builtin/math.h"
-#include "scene/scene.h"
+#include "scene/model/scene.h"
+#include "scene/model/vec3.h"
 
 namespace sobb {
 
@@ -26,12 +26,12 @@ class ObliqueTurn {
   Vec3 centre_;
 };
 
-// What follows the '@' of a scene's name. Error SCENE_SYNTAX, naming `source`, where it is no
+// Parses what follows the '@' of a source. Error SCENE_SYNTAX, naming `source`, where that is no
 // number from -360 to 360.
 double parse_degrees(const std::string& source, std::string_view text);
 
 // Turns a finished scene and its views about the centre of its box, and measures it again. Errors:
-// TOO_LARGE, naming `source`, where a vertex comes to lie beyond 2^60; CANCELLED.
+// TOO_LARGE, naming `source`, where a turned vertex is beyond 2^60; CANCELLED.
 void turn_scene(const std::string& source, double degrees, Scene& scene, Progress* progress);
 
 }  // namespace sobb

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See utf8.h.
-#include "scene/input/utf8.h"
+#include "scene/model/utf8.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace sobb {
 namespace {
 
-// Bytes of the well-formed sequence that starts at `i`, 0 if none does (Unicode, table 3-7).
+// The length of the well-formed sequence that starts at `i`, or 0 (Unicode, table 3-7).
 size_t sequence_length(const std::string& text, size_t i) {
   const auto byte = [&](size_t k) { return k < text.size() ? uint8_t(text[k]) : uint8_t(0); };
   const uint8_t lead = byte(i);

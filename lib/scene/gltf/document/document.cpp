@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// See document.h.
+#include "scene/gltf/document/document.h"
+
+#include <climits>
+
+#include "base/error.h"
+#include "scene/gltf/document/checked_json.h"
+#include "scene/gltf/document/extensions.h"
+#include "scene/gltf/document/geometry_filter.h"
+
+namespace sobb {
+namespace {
+
+using nlohmann::json;
+
+// While a text is written it doubles, and the old one lives until it is copied.
+constexpr uint64_t kGrowing = 3;
+
+// The most that TinyGLTF's structs and ours take per element: a placed node with a camera.
+constexpr uint64_t kElementBytes = 2560;
+
+// A bound of the text that a tree is written to: numbers may become longer, as 1e15 does.
+uint64_t written_bytes(const JsonSize& size) { return size.string_bytes + 4 * size.other_bytes; }
+
+uint64_t count_elements(const json& document) {
+  uint64_t count = 0;
+  for (const json& part : document) {
+    if (!part.is_array()) continue;
+    count += part.size();
+    for (const json& element : part) {
+      const auto primitives = element.find("primitives");
+      if (primitives != element.end()) count += primitives->size();
+    }
+  }
+  return count;
+}
+
+// Counts what lives on until the scene is made: the model, with its strings and numbers, and the
+// URIs.
+void hold_document(const GltfDocument& document, const JsonSize& size, uint64_t elements,
+                   SceneWriter& writer) {
+  writer.hold(elements * kElementBytes + 2 * size.string_bytes + kGrowing * 8 * size.commas);
+  for (const GltfBuffer& buffer : document.buffers) writer.hold(buffer.uri.size());
+}
+
+// What is left of the JSON for TinyGLTF.
+struct FilteredText {
+  std::string text;
+  uint64_t elements = 0;
+};
+
+FilteredText filter_text(std::string_view text, GltfDocument& document, SceneWriter& writer) {
+  const std::string& name = writer.name();
+  const json tree = parse_json(text, name, writer);
+  const JsonSize size = measure_json(text);
+  check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size), name, writer);
+  const CheckedJson checked(tree, name);
+  check_extensions(checked);
+  const json geometry = geometry_of(checked);
+  FilteredText result{geometry.dump(), count_elements(geometry)};
+  document.buffers = declared_buffers(checked);
+  document.quantized = uses_extension(checked, "KHR_mesh_quantization");
+  if (result.text.size() > UINT_MAX) {
+    fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: JSON of 4 GiB or more", name.c_str());
+  }
+  return result;
+}
+
+void load_model(const std::string& text, const std::string& name, tinygltf::Model& model) {
+  std::string error;
+  std::string warning;
+  tinygltf::TinyGLTF reader;
+  const bool read =
+      reader.LoadASCIIFromString(&model, &error, &warning, text.data(), unsigned(text.size()), "");
+  if (!read || !error.empty()) {
+    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s", name.c_str(),
+         error.substr(0, error.find('\n')).c_str());
+  }
+  if (!model.asset.version.starts_with("2.")) {
+    fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: glTF version %s, only 2 is read", name.c_str(),
+         model.asset.version.c_str());
+  }
+}
+
+}  // namespace
+
+GltfDocument parse_gltf(std::string_view text, SceneWriter& writer) {
+  GltfDocument result;
+  const auto [filtered, elements] = filter_text(text, result, writer);
+  const JsonSize size = measure_json(filtered);
+  check_json_room(size.parse_bytes() + filtered.size() + elements * kElementBytes, writer.name(),
+                  writer);
+  hold_document(result, size, elements, writer);
+  load_model(filtered, writer.name(), result.model);
+  return result;
+}
+
+}  // namespace sobb

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decides which glTF extensions a file may use and require.
+#pragma once
+
+#include "scene/gltf/document/checked_json.h"
+
+namespace sobb {
+
+// Whether the document lists the extension as used or required.
+bool uses_extension(const CheckedJson& json, const char* extension);
+
+// Error SCENE_UNSUPPORTED, with the extension's name, for one that is required and may change
+// triangles, and for one without which triangles would be lost.
+void check_extensions(const CheckedJson& json);
+
+}  // namespace sobb
