@@ -39,7 +39,8 @@ mkdir -p build/fuzz/crashes
 
 # One target: counts its inputs, and 1 crash where it ended early.
 fuzz() {
-  local target=$1 found=build/fuzz/corpus/$1 dictionary=tests/fuzz/dictionaries/$1.dict
+  local target=$1 found=build/fuzz/corpus/$1
+  local dictionary=tests/fuzz/dictionaries/${1/#glb/gltf}.dict # one JSON, one dictionary
   local options=(-max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=2048
     -print_final_stats=1 -artifact_prefix="build/fuzz/crashes/$target-")
   [[ -f $dictionary ]] && options+=(-dict="$dictionary")

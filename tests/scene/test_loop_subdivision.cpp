@@ -53,14 +53,18 @@ std::set<Point> places(const Scene& scene, size_t first_triangle, size_t triangl
 
 // How many edges have not exactly one neighbour, which runs the other way.
 size_t loose_edges(const Scene& scene) {
-  std::multiset<std::pair<uint32_t, uint32_t>> edges;
+  std::vector<std::pair<uint32_t, uint32_t>> edges;
   for (size_t i = 0; i < scene.indices.size(); i += 3) {
     for (size_t k = 0; k < 3; ++k) {
-      edges.insert({scene.indices[i + k], scene.indices[i + (k + 1) % 3]});
+      edges.emplace_back(scene.indices[i + k], scene.indices[i + (k + 1) % 3]);
     }
   }
+  std::ranges::sort(edges);
+  const auto count = [&](uint32_t from, uint32_t to) {
+    return std::ranges::equal_range(edges, std::pair(from, to)).size();
+  };
   return size_t(std::ranges::count_if(edges, [&](const auto& edge) {
-    return edges.count(edge) != 1 || edges.count({edge.second, edge.first}) != 1;
+    return count(edge.first, edge.second) != 1 || count(edge.second, edge.first) != 1;
   }));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The C interface of capi/include/sobb/scene.h.
+// Implements the C interface of capi/include/sobb/scene.h.
 #include "sobb/scene.h"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ struct sobb_scene {
 
 namespace {
 
-// Returns element `index` of an array of the scene.
+// Returns element `index` of one of the scene's arrays. Error: INVALID_ARGUMENT where there is
+// none.
 template <class Element>
 const Element& element(const std::vector<Element>& array, uint64_t index, const char* what) {
   if (index >= array.size()) {

@@ -13,7 +13,7 @@
 namespace sobb {
 namespace {
 
-// OpenMesh numbers halfedges, two an edge, by int.
+// OpenMesh numbers halfedges, two per edge, by int.
 constexpr uint64_t kMostEdges = uint64_t(1) << 30;
 
 struct Counts {
@@ -21,27 +21,28 @@ struct Counts {
   uint64_t edges;
   uint64_t triangles;
 
-  // Each edge is halved, and each triangle gets three more within.
+  // The counts after one more subdivision: each edge is halved, and each triangle gets three edges
+  // within.
   Counts subdivided() const { return {vertices + edges, 2 * edges + 3 * triangles, 4 * triangles}; }
 };
 
-// A mesh in double: positions are rounded once, at the end. It has its user asked on the way, in
-// the functions that OpenMesh's LoopT calls for each vertex, edge and triangle.
-class AskingMesh : public OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble> {
+// A mesh in double, since positions are rounded once, at the end. It reports progress in the
+// functions that OpenMesh's LoopT calls for each vertex, edge and triangle.
+class ReportingMesh : public OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble> {
  public:
-  AskingMesh(SceneWriter& writer, uint64_t work) : writer_(writer), work_(work) {}
+  ReportingMesh(SceneWriter& writer, uint64_t work) : writer_(writer), work_(work) {}
 
-  bool is_boundary(VertexHandle vertex) const { return ask(), Base::is_boundary(vertex); }
-  bool is_boundary(EdgeHandle edge) const { return ask(), Base::is_boundary(edge); }
+  bool is_boundary(VertexHandle vertex) const { return report(), Base::is_boundary(vertex); }
+  bool is_boundary(EdgeHandle edge) const { return report(), Base::is_boundary(edge); }
   bool is_boundary(HalfedgeHandle halfedge) const { return Base::is_boundary(halfedge); }
-  FaceHandle new_face() { return ask(), Base::new_face(); }
+  FaceHandle new_face() { return report(), Base::new_face(); }
 
  private:
   using Base = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 
-  void ask() const {
-    constexpr uint64_t kAskedEvery = 1 << 14;
-    if (++done_ % kAskedEvery == 0) writer_.reach(double(done_) / double(work_));
+  void report() const {
+    constexpr uint64_t kReportEvery = 1 << 14;
+    if (++done_ % kReportEvery == 0) writer_.reach(double(done_) / double(work_));
   }
 
   SceneWriter& writer_;
@@ -49,14 +50,14 @@ class AskingMesh : public OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraits
   mutable uint64_t done_ = 0;
 };
 
-// Weights in float: another machine's cosine differs in bits that are rounded off.
-class Loop : public OpenMesh::Subdivider::Uniform::LoopT<AskingMesh, float> {
+// Weights are in float: where another machine's cosine differs, those bits are rounded off.
+class Loop : public OpenMesh::Subdivider::Uniform::LoopT<ReportingMesh, float> {
  public:
   explicit Loop(const Counts& end) : end_(end) {}
 
  private:
-  // LoopT adds properties of vertices and edges, which must not move either as they grow.
-  bool prepare(AskingMesh& mesh) override {
+  // LoopT adds properties of vertices and edges, whose arrays must not move either as they grow.
+  bool prepare(ReportingMesh& mesh) override {
     LoopT::prepare(mesh);
     mesh.reserve(end_.vertices, end_.edges, end_.triangles);
     return true;
@@ -65,16 +66,16 @@ class Loop : public OpenMesh::Subdivider::Uniform::LoopT<AskingMesh, float> {
   Counts end_;
 };
 
-// Its items, and the positions of vertices, also new ones, and of edges.
+// What a mesh takes: its items, the positions of vertices, old and new, and those of edges.
 uint64_t mesh_bytes(const Counts& counts) {
   using Items = OpenMesh::ArrayItems;
-  using Point = AskingMesh::Point;
+  using Point = ReportingMesh::Point;
   return counts.vertices * (sizeof(Items::Vertex) + 2 * sizeof(Point)) +
          counts.edges * (sizeof(Items::Edge) + sizeof(Point)) +
          counts.triangles * sizeof(Items::Face);
 }
 
-void fill_mesh(const Scene& scene, const ManifoldCorners& corners, AskingMesh& mesh,
+void fill_mesh(const Scene& scene, const ManifoldCorners& corners, ReportingMesh& mesh,
                SceneWriter& writer) {
   for (const uint32_t vertex : corners.scene_vertex) {
     const float* v = &scene.vertices[size_t(3) * vertex];
@@ -83,17 +84,17 @@ void fill_mesh(const Scene& scene, const ManifoldCorners& corners, AskingMesh& m
   for (size_t i = 0; i < scene.indices.size(); i += 3) {
     writer.work(3);
     const uint32_t* c = &corners.vertex_of_corner[i];
-    const AskingMesh::VertexHandle triangle[] = {AskingMesh::VertexHandle(int(c[0])),
-                                                 AskingMesh::VertexHandle(int(c[1])),
-                                                 AskingMesh::VertexHandle(int(c[2]))};
+    const ReportingMesh::VertexHandle triangle[] = {ReportingMesh::VertexHandle(int(c[0])),
+                                                    ReportingMesh::VertexHandle(int(c[1])),
+                                                    ReportingMesh::VertexHandle(int(c[2]))};
     if (!mesh.add_face(triangle, 3).is_valid()) {
       fail(SOBB_ERROR_INTERNAL, "OpenMesh refuses triangle %zu", i / 3);
     }
   }
 }
 
-// Each subdivision leaves the middle child of triangle i at i, and appends the other three: of
-// all triangles in order.
+// Where OpenMesh puts descendant `which` of a triangle: each subdivision leaves the middle child of
+// triangle i at i, and appends the other three, of all triangles in order.
 uint64_t descendant(uint64_t triangle, uint64_t which, unsigned subdivisions, uint64_t triangles) {
   for (unsigned step = subdivisions; step-- > 0; triangles *= 4) {
     const uint64_t child = which >> (2 * step) & 3;
@@ -102,10 +103,10 @@ uint64_t descendant(uint64_t triangle, uint64_t which, unsigned subdivisions, ui
   return triangle;
 }
 
-void write_mesh(const Scene& scene, unsigned subdivisions, const AskingMesh& mesh,
+void write_mesh(const Scene& scene, unsigned subdivisions, const ReportingMesh& mesh,
                 SceneWriter& writer) {
-  for (const AskingMesh::VertexHandle vertex : mesh.vertices()) {
-    const AskingMesh::Point& p = mesh.point(vertex);
+  for (const ReportingMesh::VertexHandle vertex : mesh.vertices()) {
+    const ReportingMesh::Point& p = mesh.point(vertex);
     writer.add_vertex(float(p[0]), float(p[1]), float(p[2]), "subdivided");
   }
   const uint64_t triangles = scene.indices.size() / 3;
@@ -116,7 +117,8 @@ void write_mesh(const Scene& scene, unsigned subdivisions, const AskingMesh& mes
           descendant(from.first_triangle + (i >> (2 * subdivisions)),
                      i & ((1U << (2 * subdivisions)) - 1), subdivisions, triangles);
       uint64_t polygon[3];
-      AskingMesh::HalfedgeHandle edge = mesh.halfedge_handle(AskingMesh::FaceHandle(int(face)));
+      ReportingMesh::HalfedgeHandle edge =
+          mesh.halfedge_handle(ReportingMesh::FaceHandle(int(face)));
       for (uint64_t& corner : polygon) {
         corner = uint64_t(mesh.to_vertex_handle(edge).idx());
         edge = mesh.next_halfedge_handle(edge);
@@ -147,7 +149,7 @@ void subdivide_scene(const std::string& source, unsigned subdivisions, uint64_t 
     fail(SOBB_ERROR_TOO_LARGE, "%s: more than 2^30 edges, from %llu triangles", source.c_str(),
          static_cast<unsigned long long>(triangles));
   };
-  // Edges are as many as triangles at least.
+  // There are at least as many edges as triangles.
   if (triangles << (2 * subdivisions) > kMostEdges) refuse();
 
   Scene refined;
@@ -166,7 +168,7 @@ void subdivide_scene(const std::string& source, unsigned subdivisions, uint64_t 
               corners.most_edges * sizeof(std::pair<float, float>) + mesh_bytes(counts));
   writer.expect(counts.vertices, counts.triangles);
 
-  AskingMesh mesh(writer, work);
+  ReportingMesh mesh(writer, work);
   mesh.reserve(counts.vertices, counts.edges, counts.triangles);
   fill_mesh(scene, corners, mesh, writer);
   Loop loop(counts);

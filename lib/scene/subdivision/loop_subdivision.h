@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refined scenes, SOURCE^TIMES: the same shape in 4, 16 or 64 times the triangles, so that cost
-// against size is a curve.
+// Refined scenes, SOURCE^TIMES: the same shape in 4, 16 or 64 times the triangles, so that a study
+// can plot cost against size.
+//
+// The room subdivision/ refines a finished scene: manifold_corners.h finds the surface that its
+// triangles make, and OpenMesh subdivides that.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +15,16 @@
 
 namespace sobb {
 
-// What follows the '^' of a scene's name, as a number of subdivisions: 1, 2 or 3 for 4, 16 or 64.
-// Error SCENE_SYNTAX, naming `source`, where it is none of them.
+// Parses what follows the '^' of a source. Returns the number of subdivisions: 1, 2 or 3 for 4, 16
+// or 64. Error SCENE_SYNTAX, naming `source`, where that is none of them.
 unsigned parse_subdivisions(const std::string& source, std::string_view text);
 
-// Subdivides a finished scene so often by C. Loop's masks (*Smooth Subdivision Surfaces Based on
-// Triangles*, 1987), by OpenMesh, and measures it again; views stay as they are. The triangles that
-// come from one lie together, in the order of those they come from. The surface ends, and is
-// smoothed along its end as a curve, where ManifoldCorners says so. Time grows with the square of
-// the most triangles about one vertex. Errors: CANCELLED; naming `source`, MEMORY_LIMIT, TOO_LARGE
-// where there would be too many triangles.
+// Subdivides a finished scene that many times by C. Loop's masks (*Smooth Subdivision Surfaces
+// Based on Triangles*, 1987) and measures it again; views stay as they are. The triangles that come
+// from one lie together, in the order of those they come from. Where ManifoldCorners says that the
+// surface ends, it is smoothed along its end as a curve. Time grows with the square of the most
+// triangles about one vertex. Errors: CANCELLED; naming `source`, MEMORY_LIMIT, and TOO_LARGE for
+// too many triangles.
 void subdivide_scene(const std::string& source, unsigned subdivisions, uint64_t memory_limit,
                      Scene& scene, Progress* progress);
 

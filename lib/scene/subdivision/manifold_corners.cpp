@@ -12,17 +12,17 @@ namespace {
 
 constexpr uint32_t kNone = 0xFFFFFFFF;
 
-// A triangle's edge by its ends; `corner` is where it begins.
+// A triangle's edge.
 struct Edge {
-  uint32_t low;
+  uint32_t low;  // its ends, in order
   uint32_t high;
-  uint32_t corner;
+  uint32_t corner;  // where it begins
 };
 
 uint32_t next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 uint32_t previous_corner(uint32_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
-// A sort takes seconds for a large scene, so it asks on its way whether to go on.
+// Sorts, and reports progress on the way: a large scene takes seconds.
 template <class T, class Key>
 void sort_by(std::vector<T>& items, SceneWriter& writer, const Key& key) {
   std::sort(items.begin(), items.end(), [&](const T& a, const T& b) {
@@ -31,7 +31,7 @@ void sort_by(std::vector<T>& items, SceneWriter& writer, const Key& key) {
   });
 }
 
-// For each of the scene's vertices the first at its place.
+// For each of the scene's vertices, the first one at its place.
 std::vector<uint32_t> weld(const Scene& scene, SceneWriter& writer) {
   const auto place = [&](uint32_t vertex) {
     const float* v = &scene.vertices[size_t(3) * vertex];
@@ -48,9 +48,9 @@ std::vector<uint32_t> weld(const Scene& scene, SceneWriter& writer) {
   return first;
 }
 
-class Fans {
+class FanFinder {
  public:
-  Fans(const Scene& scene, SceneWriter& writer)
+  FanFinder(const Scene& scene, SceneWriter& writer)
       : scene_(scene), writer_(writer), first_(weld(scene, writer)) {}
 
   ManifoldCorners find() {
@@ -89,7 +89,7 @@ class Fans {
     return edges;
   }
 
-  // Fills twin_; counts off those edges that two triangles share.
+  // Fills twin_, and counts the edges that two triangles share once.
   void pair_edges() {
     const std::vector<Edge> edges = sorted_edges();
     for (size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
@@ -100,15 +100,15 @@ class Fans {
       if (end - begin != 2) continue;
       const uint32_t a = edges[begin].corner;
       const uint32_t b = edges[begin + 1].corner;
-      if (place(a) == place(b)) continue;  // in the same direction
+      if (place(a) == place(b)) continue;  // they run in the same direction
       twin_[a] = b;
       twin_[b] = a;
       --result_.edge_count;
     }
   }
 
-  // All corners of the fan that `corner` is in become a vertex: one way about it, and, where an
-  // edge of the surface stops that, the other way.
+  // Makes a vertex of all corners of the fan that `corner` is in: goes one way about it, and, where
+  // the surface ends, the other way.
   void add_vertex(uint32_t corner) {
     const auto vertex = uint32_t(result_.scene_vertex.size());
     result_.scene_vertex.push_back(place(corner));
@@ -135,17 +135,18 @@ class Fans {
   const Scene& scene_;
   SceneWriter& writer_;
   std::vector<uint32_t> first_;
-  std::vector<uint32_t> twin_;  // of each edge, by its first corner: the same of its neighbour
+  std::vector<uint32_t> twin_;  // per corner: the edge that begins there, as a neighbour has it
   ManifoldCorners result_;
 };
 
 }  // namespace
 
 ManifoldCorners find_manifold_corners(const Scene& scene, SceneWriter& writer) {
-  // The welding's order and result; a corner's edge, twin and vertex, and a vertex each at worst.
+  // Per vertex the welding's order and result; per corner its edge, twin and vertex, and at worst a
+  // vertex of its own.
   writer.check_room(scene.vertices.size() / 3 * 2 * sizeof(uint32_t) +
                     scene.indices.size() * (sizeof(Edge) + 4 * sizeof(uint32_t)));
-  return Fans(scene, writer).find();
+  return FanFinder(scene, writer).find();
 }
 
 }  // namespace sobb

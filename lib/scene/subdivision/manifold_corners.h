@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which corners of a scene's triangles are one vertex of a manifold: what subdivision needs, and
-// what files do not promise.
+// Finds which corners of a scene's triangles are one vertex of a manifold: subdivision needs that,
+// and files do not promise it.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +17,14 @@ namespace sobb {
 // of its own; so has each corner of a triangle with two corners at one place. No triangle is lost,
 // and the order of triangles does not matter.
 struct ManifoldCorners {
-  std::vector<uint32_t> vertex_of_corner;  // of 3 corners a triangle
-  std::vector<uint32_t> scene_vertex;      // of each vertex: the scene's, for its place
+  std::vector<uint32_t> vertex_of_corner;  // three corners per triangle
+  std::vector<uint32_t> scene_vertex;      // per vertex, one of the scene's at its place
   uint64_t edge_count = 0;
   uint64_t most_edges = 0;  // about one vertex
 };
 
-// Asks `writer` for the room that it needs for a while, and whether to go on. At most 2^30
-// triangles. Errors: CANCELLED, MEMORY_LIMIT.
+// For at most 2^30 triangles. `writer` bounds the memory that is needed for a while, and reports
+// progress. Errors: CANCELLED, MEMORY_LIMIT.
 ManifoldCorners find_manifold_corners(const Scene& scene, SceneWriter& writer);
 
 }  // namespace sobb
