@@ -3,6 +3,7 @@
 #include "scene/formats.h"
 
 #include "scene/gltf/gltf.h"
+#include "scene/input/ascii.h"
 #include "scene/text/obj.h"
 #include "scene/text/off.h"
 #include "scene/text/ply.h"
@@ -33,9 +34,7 @@ PathParts split_path(const std::string& path) {
     return parts;
   }
   parts.stem = path.substr(name, dot - name);
-  for (const char c : path.substr(dot + 1)) {
-    parts.ending += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-  }
+  for (const char c : path.substr(dot + 1)) parts.ending += ascii_lower(c);
   return parts;
 }
 

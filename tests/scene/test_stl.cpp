@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The STL reader: both forms and how they are told apart, every error, hostile bytes.
+// The STL reader: both forms and how it tells them apart, every error, hostile bytes.
 #include "scene/text/stl.h"
 
 #include <gtest/gtest.h>

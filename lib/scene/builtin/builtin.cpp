@@ -55,7 +55,7 @@ const BuiltinScene* find_scene(std::string_view name) {
   return nullptr;
 }
 
-// Whether all of `text` is a number.
+// Parses all of `text` as a number; false where it is none.
 bool parse_count(std::string_view text, uint64_t& count) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   return error == std::errc() && end == text.data() + text.size();

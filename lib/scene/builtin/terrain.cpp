@@ -52,7 +52,7 @@ double height(double x, double z) {
 }  // namespace
 
 void make_terrain(PartsWriter& parts) {
-  // Of the nearly square grids, the one that spends the most.
+  // The grid is the one, among the nearly square ones, that spends the most.
   const uint64_t quads = parts.left() / PartsWriter::kQuad;
   const auto root = uint64_t(std::sqrt(double(quads)));
   uint64_t rows = root;

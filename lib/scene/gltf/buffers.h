@@ -24,8 +24,8 @@ class GltfBuffers {
 
   size_t count() const { return buffers_.size(); }
 
-  // Whether an accessor may have that many elements of zeros, which no buffer backs. All accessors
-  // together have a limit, since few words must not make many bytes.
+  // Returns whether an accessor may have that many elements of zeros, which no buffer backs. All
+  // accessors together have a limit, since few words must not make many bytes.
   bool take_zeros(uint64_t elements);
   // An accessor holds that many bytes of its own. Errors: MEMORY_LIMIT, CANCELLED.
   void hold(uint64_t bytes);

@@ -70,8 +70,8 @@ class GltfReader {
     }
   }
 
-  // Whether a node has element `index` of `count`; an index below zero is none. Error SCENE_SYNTAX
-  // for an index beyond them.
+  // Returns whether a node has element `index` of `count`; an index below zero is none. Error
+  // SCENE_SYNTAX for an index beyond them.
   bool named_by(const GltfPlacedNode& placed, int index, size_t count, const char* what) const {
     if (index < 0) return false;
     if (size_t(index) < count) return true;

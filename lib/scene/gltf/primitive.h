@@ -15,7 +15,7 @@ namespace sobb {
 // A primitive that is made of triangles, with its accessors proven.
 class GltfPrimitive {
  public:
-  // Whether there are triangles: points and lines have none, nor has what has no positions.
+  // Points and lines have no triangles, nor has what has no positions.
   static bool has_triangles(const tinygltf::Primitive& primitive) {
     return primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.attributes.count("POSITION") != 0;
   }

@@ -11,7 +11,7 @@ namespace sobb {
 // `progress_begin` to 1.
 void measure(Scene& scene, Progress* progress, double progress_begin);
 
-// Of the bounds that measure() found.
+// These follow from the bounds that measure() found.
 Vec3 box_centre(const Scene& scene);
 double half_diagonal(const Scene& scene);
 

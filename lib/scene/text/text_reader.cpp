@@ -3,60 +3,20 @@
 #include "scene/text/text_reader.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <charconv>
-#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <system_error>
 
 #include "base/error.h"
+#include "scene/input/ascii.h"
+#include "scene/text/number.h"
 
 namespace sobb {
 namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-// std::from_chars takes no plus sign.
-std::string_view without_plus(std::string_view word) {
-  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
-  return plus ? word.substr(1) : word;
-}
-
-// Whether a well-formed number that is out of double's range is below it rather than above: the
-// power of ten of its first digit other than zero decides.
-bool is_tiny(std::string_view number) {
-  int64_t power = 0;
-  bool point = false;
-  bool significant = false;
-  for (size_t i = 0; i < number.size(); ++i) {
-    const char c = number[i];
-    if (lower(c) == 'e') {
-      const std::string_view digits = without_plus(number.substr(i + 1));
-      int64_t exponent = 0;
-      const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
-      if (end.ec != std::errc()) return digits.front() == '-';
-      return power + exponent < 0;
-    }
-    point |= c == '.';
-    if (!is_digit(c)) continue;
-    significant |= c != '0';
-    if (significant && !point) ++power;
-    if (!significant && point) --power;
-  }
-  return power < 0;
-}
-
-template <class T>
-std::errc parse_integer(std::string_view word, T& value) {
-  const std::string_view digits = without_plus(word);
-  const char* end = digits.data() + digits.size();
-  const auto result = std::from_chars(digits.data(), end, value);
-  return result.ptr == end ? result.ec : std::errc::invalid_argument;
-}
 
 }  // namespace
 
@@ -190,7 +150,7 @@ bool TextReader::take_word(std::string_view expected) {
   TextReader ahead = *this;
   const std::string_view found = ahead.word();
   const bool same = std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
-                               [](char a, char b) { return lower(a) == lower(b); });
+                               [](char a, char b) { return ascii_lower(a) == ascii_lower(b); });
   if (same) *this = ahead;
   return same;
 }
@@ -222,25 +182,6 @@ void TextReader::refuse_word(std::string_view word, const char* what) const {
     fail_here(SOBB_ERROR_SCENE_SYNTAX, "the line ends where %s should be", what);
   }
   fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" where %s should be", quote(word).c_str(), what);
-}
-
-bool parse_number(std::string_view word, float& value) {
-  const std::string_view number = without_plus(word);
-  const char* end = number.data() + number.size();
-  const auto narrow = std::from_chars(number.data(), end, value);
-  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) return false;
-  if (narrow.ec == std::errc()) return true;
-  double wide = 0;
-  if (std::from_chars(number.data(), end, wide).ec == std::errc::result_out_of_range) {
-    wide = is_tiny(number) ? 0.0 : number.front() == '-' ? -DBL_MAX : DBL_MAX;
-  }
-  value = nearest_float(wide);
-  return true;
-}
-
-float nearest_float(double value) {
-  if (std::isfinite(value)) value = std::clamp<double>(value, -FLT_MAX, FLT_MAX);
-  return static_cast<float>(value);
 }
 
 std::string quote(std::string_view word) {

@@ -34,7 +34,8 @@ class TextReader {
   bool next_line();
   // Moves to the next line that has a word; false where there is none.
   bool next_line_with_words();
-  // The same for the line of item `index` of `count`, named in the message where the text ends.
+  // Moves to such a line, for item `index` of `count`. SCENE_SYNTAX, naming the item, where the
+  // text ends.
   void next_item(std::string_view item, uint64_t index, uint64_t count);
 
   // The next word of the line; empty at the line's end.
@@ -84,13 +85,6 @@ class TextReader {
   const char* name_;
   uint64_t line_ = 0;  // 0 before the first
 };
-
-// A word as a number, in any notation of C's but hexadecimal, with nan and inf; false where it is
-// none. Beyond float's range: the largest float, or zero.
-bool parse_number(std::string_view word, float& value);
-
-// The float nearest to a double; the largest one for finite doubles beyond float's range.
-float nearest_float(double value);
 
 // A word for a message: cut where it is long, bytes that are no letters replaced.
 std::string quote(std::string_view word);

@@ -11,8 +11,8 @@
 
 namespace sobb {
 
-// Whether a picture can be made: all numbers finite, the eye off its target, up not along the
-// direction, an angle between 0 and 180 degrees.
+// Returns whether a picture can be made: all numbers finite, the eye off its target, up not along
+// the direction, an angle between 0 and 180 degrees.
 bool is_possible(const sobb_view& view);
 
 // The cameras as views whose targets are at `distance`. Cameras whose view is not possible are left

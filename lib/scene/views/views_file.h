@@ -16,7 +16,7 @@ namespace sobb {
 std::vector<sobb_view> parse_views(std::string_view text, const std::string& path,
                                    std::string_view stem, SceneWriter& writer);
 
-// The same from the file. Errors: FILE_OPEN, FILE_READ too.
+// Reads the file at `path` and parses it as above. Errors: FILE_OPEN, FILE_READ too.
 std::vector<sobb_view> read_views(const std::string& path, std::string_view stem,
                                   SceneWriter& writer);
 

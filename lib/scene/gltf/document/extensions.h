@@ -6,7 +6,7 @@
 
 namespace sobb {
 
-// Whether the document lists the extension as used or required.
+// Returns whether the document lists the extension as used or required.
 bool uses_extension(const CheckedJson& json, const char* extension);
 
 // Error SCENE_UNSUPPORTED, with the extension's name, for one that is required and may change

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// See number.h.
+#include "scene/text/number.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <charconv>
+#include <cmath>
+
+#include "scene/input/ascii.h"
+
+namespace sobb {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// std::from_chars takes no plus sign.
+std::string_view without_plus(std::string_view word) {
+  const bool plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
+  return plus ? word.substr(1) : word;
+}
+
+// Returns whether a well-formed number that is out of double's range is below it rather than above:
+// the power of ten of its first digit other than zero decides.
+bool is_tiny(std::string_view number) {
+  int64_t power = 0;
+  bool point = false;
+  bool significant = false;
+  for (size_t i = 0; i < number.size(); ++i) {
+    const char c = number[i];
+    if (ascii_lower(c) == 'e') {
+      const std::string_view digits = without_plus(number.substr(i + 1));
+      int64_t exponent = 0;
+      const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+      if (end.ec != std::errc()) return digits.front() == '-';
+      return power + exponent < 0;
+    }
+    point |= c == '.';
+    if (!is_digit(c)) continue;
+    significant |= c != '0';
+    if (significant && !point) ++power;
+    if (!significant && point) --power;
+  }
+  return power < 0;
+}
+
+template <class T>
+std::errc parse_integer_as(std::string_view word, T& value) {
+  const std::string_view digits = without_plus(word);
+  const char* end = digits.data() + digits.size();
+  const auto result = std::from_chars(digits.data(), end, value);
+  return result.ptr == end ? result.ec : std::errc::invalid_argument;
+}
+
+}  // namespace
+
+std::errc parse_integer(std::string_view word, int64_t& value) {
+  return parse_integer_as(word, value);
+}
+
+std::errc parse_integer(std::string_view word, uint64_t& value) {
+  return parse_integer_as(word, value);
+}
+
+bool parse_number(std::string_view word, float& value) {
+  const std::string_view number = without_plus(word);
+  const char* end = number.data() + number.size();
+  const auto narrow = std::from_chars(number.data(), end, value);
+  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) return false;
+  if (narrow.ec == std::errc()) return true;
+  double wide = 0;
+  if (std::from_chars(number.data(), end, wide).ec == std::errc::result_out_of_range) {
+    wide = is_tiny(number) ? 0.0 : number.front() == '-' ? -DBL_MAX : DBL_MAX;
+  }
+  value = nearest_float(wide);
+  return true;
+}
+
+float nearest_float(double value) {
+  if (std::isfinite(value)) value = std::clamp<double>(value, -FLT_MAX, FLT_MAX);
+  return static_cast<float>(value);
+}
+
+}  // namespace sobb

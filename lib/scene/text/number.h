@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parses the words of a text file as numbers.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+
+namespace sobb {
+
+// Parses a word in any notation of C's but hexadecimal, with nan and inf; false where it is no
+// number. Beyond float's range: the largest float, or zero.
+bool parse_number(std::string_view word, float& value);
+
+// Parses a word that is a whole number. Errors: invalid_argument, result_out_of_range.
+std::errc parse_integer(std::string_view word, int64_t& value);
+std::errc parse_integer(std::string_view word, uint64_t& value);
+
+// The float nearest to a double; the largest one for finite doubles beyond float's range.
+float nearest_float(double value);
+
+}  // namespace sobb
