@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array of plain values that nobody has set yet: the threads that fill it touch its pages first.
+// An array of plain values without any at first: the threads that fill it touch its pages first.
 #pragma once
 
 #include <memory_resource>

@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/isa.h"
 #include "bounds/directions/direction_table.h"
+#include "builder/boxes/frame.h"
 #include "builder/mesh.h"
-#include "builder/topology/frame.h"
+#include "builder/scene_directions.h"
 #include "builder/topology/topology.h"
-#include "builder/volumes/scene_directions.h"
 #include "builder/volumes/volumes.h"
 #include "builder/wide/collapse.h"
 #include "format/writer/writer.h"
@@ -20,7 +19,7 @@
 namespace sobb {
 namespace {
 
-// The parts of the progress that stages take, by measured time.
+// Where stages end on the scale of the progress, by measured time.
 constexpr double kTopologyEnd = 0.7;
 constexpr double kCollapseEnd = 0.75;
 
@@ -30,7 +29,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// An enumerator of an option, 0 standing for the default.
+// Reads an option that is an enumerator, 0 standing for the default.
 template <class Enum>
 Enum choose(uint32_t value, Enum default_value, uint32_t last, const char* name) {
   if (value > last) fail(SOBB_ERROR_INVALID_ARGUMENT, "build options: %s is %u", name, value);
@@ -44,17 +43,6 @@ uint32_t choose_number(uint32_t value, uint32_t default_value,
     fail(SOBB_ERROR_INVALID_ARGUMENT, "build options: %s is %u", name, value);
   }
   return value;
-}
-
-void fill_header(const MeshSummary& summary, uint64_t triangle_count, const BuildSettings& settings,
-                 uint32_t depth, FileHeader& header) {
-  header.volume = settings.volume;
-  header.depth = depth;
-  header.centre[0] = summary.centre.x;
-  header.centre[1] = summary.centre.y;
-  header.centre[2] = summary.centre.z;
-  header.radius = summary.radius;
-  header.triangle_count = triangle_count;
 }
 
 void fill_record(const MeshSummary& summary, uint64_t reference_count,
@@ -72,13 +60,12 @@ void fill_record(const MeshSummary& summary, uint64_t reference_count,
   record.bounds_max[2] = summary.upper.z;
 }
 
-std::pmr::vector<Direction> choose_directions(const Mesh& mesh, const BuildSettings& settings,
-                                              const Scheduler& scheduler, Memory& memory) {
+DirectionSet choose_directions(const Mesh& mesh, const BuildSettings& settings,
+                               const Scheduler& scheduler, Memory& memory) {
   if (settings.table == SOBB_TABLE_FITTED) {
     return scene_directions(mesh, settings.k, scheduler, memory);
   }
-  const auto directions = default_directions(settings.k);
-  return {directions.begin(), directions.end(), &memory};
+  return default_direction_set(settings.k, memory);
 }
 
 }  // namespace
@@ -111,9 +98,10 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   progress.check(0, kTopologyEnd, 0);
   const Mesh mesh(triangles, scheduler);
   const MeshSummary summary = summarise(mesh, scheduler, *memory);
-  const auto directions = choose_directions(mesh, settings, scheduler, *memory);
-  const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd,
-                          Frame(directions, summary.centre), settings.isa);
+  const DirectionSet table = choose_directions(mesh, settings, scheduler, *memory);
+  const Frame frame(table, summary.centre);
+  const Topology topology(mesh, settings.quality, scheduler, *memory, progress, kTopologyEnd, frame,
+                          settings.isa);
   times.topology_ms = ms_since(start);
 
   const auto collapse_start = Clock::now();
@@ -122,21 +110,31 @@ Built build(const sobb_triangles& triangles, const BuildSettings& settings,
   progress.check(kTopologyEnd, kCollapseEnd, 1);
 
   const auto volume_start = Clock::now();
+  const VolumeScene scene = {mesh,
+                             frame,
+                             table.directions,
+                             {summary.centre.x, summary.centre.y, summary.centre.z},
+                             summary.radius};
+  const Shape shape = {settings.width, static_cast<uint32_t>(table.directions.size()),
+                       wide.node_count, wide.block_count};
   ImageParts parts;
-  Image image = begin_image(
-      memory,
-      {settings.width, static_cast<uint32_t>(directions.size()), wide.node_count, wide.block_count},
-      parts, Zeroed::kAllButNodesAndBlocks);
-  fill_header(summary, mesh.triangle_count(), settings, wide.depth, *parts.header);
+  Image image = begin_image(memory, shape, parts, Zeroed::kAllButNodesAndBlocks);
+  std::copy(table.directions.begin(), table.directions.end(), parts.directions.begin());
   fill_record(summary, wide.reference_count, settings, *parts.record);
-  std::copy(directions.begin(), directions.end(), parts.directions.begin());
-  make_volumes(mesh, wide, {settings.volume, settings.strategy, settings.isa}, parts, scheduler,
-               *memory, progress, kCollapseEnd);
-  seal_image(image, scheduler);
+  make_volumes(scene, wide, {settings.volume, settings.strategy, settings.isa},
+               {settings.width, parts.nodes, parts.blocks}, scheduler, *memory, progress,
+               kCollapseEnd);
+  finish_image(image, shape,
+               {settings.volume,
+                wide.depth,
+                {scene.centre[0], scene.centre[1], scene.centre[2]},
+                scene.radius,
+                mesh.triangle_count()},
+               scheduler);
   times.volume_ms = ms_since(volume_start);
   times.total_ms = ms_since(start);
-  const FileView view = {parts.header,    parts.directions, parts.nodes,
-                         wide.node_count, parts.blocks,     parts.record};
+  FileView view = view_of(image.bytes());
+  view.table = table.table;
   return {std::move(image), view, times};
 }
 

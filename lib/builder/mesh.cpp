@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "builder/mesh.h"
 
-// The streaming state as a value, not an allocation.
+// Makes the streaming state a type of known size, which needs no allocation.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
@@ -15,7 +15,7 @@
 namespace sobb {
 namespace {
 
-constexpr uint64_t kGrain = 1 << 16;  // source_hash is defined by it
+constexpr uint64_t kGrain = 1 << 16;  // triangles per range; defines source_hash
 constexpr float kLargest = 0x1p60F;
 
 using llu = unsigned long long;
@@ -30,16 +30,16 @@ void check_coordinate(float value, char axis, uint32_t vertex, uint64_t triangle
        static_cast<llu>(triangle), axis, vertex, value);
 }
 
-// Part of a summary, of one range of triangles.
-struct Part {
+// The summary of one range of triangles.
+struct RangeSummary {
   Point lower{FLT_MAX, FLT_MAX, FLT_MAX};
   Point upper{-FLT_MAX, -FLT_MAX, -FLT_MAX};
   uint64_t degenerate_count = 0;
   uint64_t hash = 0;
 };
 
-// Zero area in exact arithmetic: differences and products of floats in double err only where the
-// exponents of the coordinates lie far apart.
+// Returns whether a triangle has no area in exact arithmetic. Differences and products of floats in
+// double err only where the exponents of the coordinates lie far apart.
 bool is_degenerate(const Point corner[3]) {
   const double ax = static_cast<double>(corner[1].x) - corner[0].x;
   const double ay = static_cast<double>(corner[1].y) - corner[0].y;
@@ -56,11 +56,11 @@ struct HashedTriangle {
   uint32_t index[3];
 };
 static_assert(sizeof(HashedTriangle) == 12 * sizeof(float));
-// A call of the hash costs more than what it does for one of them.
+// So many triangles go to the hash at a time: a call costs more than the hash of one triangle.
 constexpr uint64_t kHashedTogether = 64;
 
-Part summarise_range(const Mesh& mesh, uint64_t begin, uint64_t end) {
-  Part part;
+RangeSummary summarise_range(const Mesh& mesh, uint64_t begin, uint64_t end) {
+  RangeSummary part;
   XXH3_state_t state;
   XXH3_64bits_reset(&state);
   for (uint64_t first = begin; first < end; first += kHashedTogether) {
@@ -144,13 +144,13 @@ Mesh::Mesh(const sobb_triangles& triangles, const Scheduler& scheduler)
 MeshSummary summarise(const Mesh& mesh, const Scheduler& scheduler,
                       std::pmr::memory_resource& scratch) {
   const uint64_t count = mesh.triangle_count();
-  std::pmr::vector<Part> parts((count + kGrain - 1) / kGrain, &scratch);
+  std::pmr::vector<RangeSummary> parts((count + kGrain - 1) / kGrain, &scratch);
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     parts[begin / kGrain] = summarise_range(mesh, begin, end);
   });
   MeshSummary summary{parts[0].lower, parts[0].upper, {}, 0, 0, 0};
   std::pmr::vector<uint64_t> hashes(&scratch);
-  for (const Part& part : parts) {
+  for (const RangeSummary& part : parts) {
     summary.lower = {std::min(summary.lower.x, part.lower.x),
                      std::min(summary.lower.y, part.lower.y),
                      std::min(summary.lower.z, part.lower.z)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's triangles, checked once.
+// The caller's triangles, checked once, and what the file says of them.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ class Mesh {
   Point corner(uint64_t triangle, int i) const { return vertex(indices_[3 * triangle + i]); }
   uint32_t index(uint64_t triangle, int i) const { return indices_[3 * triangle + i]; }
 
-  // Read a triangle's indices, or by these its corners, so that they are in the cache when they are
+  // Read a triangle's indices, or its corners by them, so that they are in the cache when they are
   // needed. A prefetch would not do: it is dropped where the page is not in the TLB.
   void touch_indices(uint64_t triangle) const { touch(indices_ + 3 * triangle); }
   void touch_corners(uint64_t triangle) const {
@@ -52,7 +52,7 @@ class Mesh {
   uint64_t triangle_count_;
 };
 
-// What the header and the build record say of the mesh.
+// The mesh as the file's header and build record describe it.
 struct MeshSummary {
   Point lower;  // the box of the vertices that triangles use
   Point upper;
@@ -64,7 +64,7 @@ struct MeshSummary {
   uint64_t source_hash;
 };
 
-// In parallel; the same for any number of threads.
+// Summarises in parallel; the result is the same for any number of threads.
 MeshSummary summarise(const Mesh& mesh, const Scheduler& scheduler,
                       std::pmr::memory_resource& scratch);
 

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "format/file_descriptor.h"
 #include "format/layout.h"
-#include "format/writer/file_descriptor.h"
 
 namespace sobb {
 namespace {

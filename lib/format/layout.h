@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Version 1 of the file as structs: docs/format.md in code. Little-endian, fixed-width,
 // relocatable. The nodes and triangle blocks of the file are those that the kernels trace.
+//
+// `lib/format` is the file: its layout and checksums, an image of it in memory, the view of an
+// image, statistics over a view. The rooms `format/reader` and `format/writer` know these, and not
+// each other. `lib/format` knows `lib/base` and `lib/bounds`; the builder writes by it, the tracer
+// reads.
 #pragma once
 
 #include <bit>
@@ -13,7 +18,7 @@ namespace sobb {
 
 static_assert(std::endian::native == std::endian::little, "the file is little-endian");
 
-// Not text: a byte above 127, and line ends that a text transfer would change.
+// No text begins so: a byte above 127, and line ends that a text transfer would change.
 inline constexpr uint8_t kMagic[8] = {0xF5, 'S', 'O', 'B', 'B', '\r', '\n', 0x1A};
 inline constexpr uint32_t kFormatVersion = 1;
 inline constexpr uint64_t kSectionAlignment = 64;
@@ -31,7 +36,7 @@ struct FileHeader {
   uint32_t must_understand;  // features without which the file cannot be traced; none defined
   uint32_t ignorable;        // features that a reader may pass over; none defined
   uint32_t volume;           // a sobb_volume
-  uint32_t width;            // W, children a node: 4 or 8
+  uint32_t width;            // W, children per node: 4 or 8
   uint32_t direction_count;  // K: 3 for the AABB, else 16, 24 or 32
   uint32_t section_count;
   uint32_t depth;           // nodes on the longest way down, the root counted
@@ -54,7 +59,7 @@ struct Section {
 };
 static_assert(sizeof(Section) == 32);
 
-// Section kDirections: K of them; an AABB's are the axes.
+// Section kDirections holds K directions; those of AABBs are the axes.
 static_assert(sizeof(Direction) == 12);
 
 // A node of W children, 32 W bytes, structure of arrays. Child i's volume is the intersection of
@@ -78,13 +83,13 @@ inline constexpr uint32_t kChildCountShift = 8;  // child 0 only: four bits, 1 t
 inline constexpr uint16_t kChildCountMask = 0xF << kChildCountShift;
 inline constexpr uint16_t kSharedBit = 1u << 12;  // child 0 only: every child has one basis
 
-// Of a node of any layout with this meta word.
+// The number of a node's children, in any layout with this meta word.
 template <class AnyNode>
 constexpr uint32_t child_count(const AnyNode& node) {
   return (node.meta[0] & kChildCountMask) >> kChildCountShift;
 }
 
-// Whether a node needs the table's first three directions, the frame, and no others.
+// Returns whether a node needs the table's first three directions, the frame, and no others.
 template <class AnyNode>
 constexpr bool on_frame(const AnyNode& node) {
   return (node.meta[0] & kSharedBit) != 0 && node.basis[0] == kAxesBasis;
@@ -100,13 +105,13 @@ static_assert(sizeof(TriangleBlock) == 160);
 
 constexpr uint64_t blocks_of(uint64_t triangles) { return (triangles + 3) / 4; }
 
-// Section kRecord: how the hierarchy was made. Nothing that differs from run to run.
+// Section kRecord says how the hierarchy was made, and nothing that differs from run to run.
 struct BuildRecord {
   uint32_t quality;   // a sobb_quality but DEFAULT
   uint32_t strategy;  // a sobb_strategy but DEFAULT
   uint64_t degenerate_count;
   uint64_t reference_count;  // triangles in leaves, each spatial split's parts counted
-  uint64_t source_hash;      // of the input (build/mesh.h)
+  uint64_t source_hash;      // of the input (builder/mesh.h)
   float bounds_min[3];       // of the vertices that triangles use
   float bounds_max[3];
   uint32_t reserved[2];  // zero

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "builder/topology/box.h"
+#include "builder/boxes/box.h"
 
 namespace sobb::test {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "builder/boxes/clip.h"
 #include "builder/sampled_triangle.h"
-#include "builder/topology/clip.h"
 #include "support/soups.h"
 
 namespace sobb::test {

@@ -28,7 +28,7 @@ class Walker {
   Walker(const WideTopology& wide, const Mesh& mesh)
       : references_(wide.references), mesh_(mesh), met_(references_.primitives.size()) {
     nodes_.assign(wide.top.nodes.begin(), wide.top.nodes.end());
-    for (const Part& part : wide.subtrees) {
+    for (const Treelet& part : wide.subtrees) {
       EXPECT_EQ(part.first_node, nodes_.size());
       nodes_.insert(nodes_.end(), part.nodes.begin(), part.nodes.end());
     }
@@ -65,8 +65,8 @@ class Walker {
     Subtree all{kNowhere, node.count[i], 0};
     for (uint32_t at = node.first[i]; at < node.first[i] + node.count[i]; ++at) {
       ++met_.at(at);
-      all.box.grow(references_.boxes.empty() ? Corners(mesh_, references_.primitives[at]).box()
-                                             : references_.boxes[at]);
+      all.box.grow(references_.is_cut(at) ? references_.cuts[at]
+                                          : Corners(mesh_, references_.primitives[at]).box());
     }
     return all;
   }

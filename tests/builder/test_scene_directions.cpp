@@ -12,7 +12,7 @@
 
 #include "bounds/area.h"
 #include "bounds/directions/direction_table.h"
-#include "builder/volumes/scene_directions.h"
+#include "builder/scene_directions.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -20,8 +20,10 @@ namespace {
 
 std::pmr::vector<Direction> directions_of(const Soup& soup, uint32_t k = 64, uint32_t threads = 1) {
   const Scheduler scheduler(threads, nullptr);
-  return scene_directions(Mesh(soup.view(), scheduler), k, scheduler,
-                          *std::pmr::get_default_resource());
+  DirectionSet found = scene_directions(Mesh(soup.view(), scheduler), k, scheduler,
+                                        *std::pmr::get_default_resource());
+  EXPECT_EQ(found.table, table_of_file(found.directions)) << soup.name;
+  return std::move(found.directions);
 }
 
 bool same(std::span<const Direction> a, std::span<const Direction> b) {

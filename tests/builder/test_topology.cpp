@@ -71,7 +71,7 @@ bool same(const Topology& a, const TopologyNode& of_a, const Topology& b,
   const References in_a = a.references().part(of_a.first, of_a.count);
   const References in_b = b.references().part(of_b.first, of_b.count);
   return std::equal(in_a.primitives.begin(), in_a.primitives.end(), in_b.primitives.begin()) &&
-         std::equal(in_a.boxes.begin(), in_a.boxes.end(), in_b.boxes.begin(), in_b.boxes.end());
+         std::equal(in_a.cuts.begin(), in_a.cuts.end(), in_b.cuts.begin(), in_b.cuts.end());
 }
 
 bool holds(const Box& outer, const Box& inner) {
@@ -112,13 +112,16 @@ void check(const Topology& topology, const TopologyNode& node, const std::vector
   }
 }
 
-// Of all references: a part's, or a whole triangle's. Void where a leaf made parts one again.
+// The boxes of all references, of parts or of whole triangles. The boxes of references that are in
+// no leaf mean nothing.
 std::vector<Box> boxes_of(const Tree& tree) {
   const References references = tree.topology.references();
   std::vector<Box> boxes;
   for (size_t i = 0; i < references.primitives.size(); ++i) {
-    boxes.push_back(references.boxes.empty() ? Corners(tree.mesh, references.primitives[i]).box()
-                                             : references.boxes[i]);
+    const bool in_leaf = references.primitives[i] < tree.mesh.triangle_count();
+    boxes.push_back(references.is_cut(i) || !in_leaf
+                        ? references.cuts[i]
+                        : Corners(tree.mesh, references.primitives[i]).box());
   }
   return boxes;
 }
@@ -183,8 +186,7 @@ TEST(Topology, SpatialSplitsKeepTheirRoom) {
     const auto count = static_cast<double>(high.mesh.triangle_count());
     EXPECT_GT(high.topology.root().count, count);
     EXPECT_LE(high.topology.root().count, 1.25 * count);
-    EXPECT_EQ(high.topology.references().primitives.size(),
-              high.topology.references().boxes.size());
+    EXPECT_EQ(high.topology.references().primitives.size(), high.topology.references().cuts.size());
   }
 }
 

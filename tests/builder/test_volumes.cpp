@@ -11,7 +11,7 @@
 
 #include "builder/build.h"
 #include "builder/sampled_triangle.h"
-#include "builder/volumes/leaf.h"
+#include "builder/volumes/leaf_kdop.h"
 #include "format/reader/reader.h"
 #include "support/soups.h"
 

@@ -30,13 +30,13 @@ Triangle helix_triangle(uint32_t index) {
   return triangle;
 }
 
-// Fills the parts that begin_image() laid out.
+// Fills the parts that begin_image() laid out, and the header's fields.
 template <int W>
 class Filler {
  public:
   Filler(SmallFile& file, std::vector<Triangle> triangles)
       : file_(file), triangles_(std::move(triangles)) {
-    file_.parts.header->triangle_count = triangles_.size();
+    file_.fields.triangle_count = triangles_.size();
     fill_record();
     fill_sphere();
   }
@@ -55,7 +55,7 @@ class Filler {
       double high = -INFINITY;
       for (uint32_t t = first; t < end; ++t) {
         for (const float* p : triangles_[t].vertex) {
-          const float* c = file_.parts.header->centre;
+          const float* c = file_.fields.centre;
           const double s = double{n.x} * (double{p[0]} - c[0]) +
                            double{n.y} * (double{p[1]} - c[1]) +
                            double{n.z} * (double{p[2]} - c[2]);
@@ -68,7 +68,7 @@ class Filler {
     }
   }
 
-  // The same, a leaf; the triangles go to blocks from `block` on.
+  // Adds a child that is a leaf; its triangles go to blocks from `block` on.
   void add_leaf(int node_index, uint32_t first, uint32_t end, uint16_t basis, uint32_t block) {
     const uint32_t lane = child_count(file_.node<W>(node_index));
     add_child(node_index, first, end, basis, block);
@@ -105,16 +105,16 @@ class Filler {
     }
   }
 
-  // About the box's centre.
+  // The sphere about the box's centre.
   void fill_sphere() {
     double squares = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float low = file_.parts.record->bounds_min[axis];
       const float high = file_.parts.record->bounds_max[axis];
-      file_.parts.header->centre[axis] = (low + high) / 2;
+      file_.fields.centre[axis] = (low + high) / 2;
       squares += (double{high} - low) * (double{high} - low) / 4;
     }
-    file_.parts.header->radius = std::nextafter(static_cast<float>(std::sqrt(squares)), INFINITY);
+    file_.fields.radius = std::nextafter(static_cast<float>(std::sqrt(squares)), INFINITY);
   }
 
   SmallFile& file_;
@@ -123,9 +123,10 @@ class Filler {
 
 SmallFile begin(const Shape& shape, sobb_volume volume, uint32_t depth) {
   SmallFile file;
+  file.shape = shape;
   file.image = begin_image(std::make_shared<Memory>(), shape, file.parts);
-  file.parts.header->volume = volume;
-  file.parts.header->depth = depth;
+  file.fields.volume = volume;
+  file.fields.depth = depth;
   const std::span<Direction> directions = file.parts.directions;
   directions[0] = {1, 0, 0};
   directions[1] = {0, 1, 0};
@@ -180,7 +181,7 @@ SmallFile make_comb_of(uint32_t node_count, uint32_t turn) {
   return file;
 }
 
-// Everything that a traversal might touch.
+// Reads everything that a traversal might touch, and returns the number of triangles.
 template <int W>
 uint64_t count_reachable(const FileView& view, uint32_t node_index) {
   const Node<W>& node = view.nodes_of<W>()[node_index];
@@ -207,12 +208,13 @@ uint64_t count_reachable(const FileView& view, uint32_t node_index) {
 
 }  // namespace
 
+FileHeader& SmallFile::header() { return *reinterpret_cast<FileHeader*>(bytes().data()); }
+
 std::span<Section> SmallFile::sections() {
-  return {reinterpret_cast<Section*>(bytes().data() + sizeof(FileHeader)),
-          parts.header->section_count};
+  return {reinterpret_cast<Section*>(bytes().data() + sizeof(FileHeader)), header().section_count};
 }
 
-void SmallFile::seal() { seal_image(image, Scheduler(1, nullptr)); }
+void SmallFile::seal() { finish_image(image, shape, fields, Scheduler(1, nullptr)); }
 
 SmallFile make_small_file(sobb_volume volume, uint32_t width) {
   return width == 4 ? make_small<4>(volume) : make_small<8>(volume);

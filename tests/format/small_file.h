@@ -16,12 +16,16 @@
 
 namespace sobb::test {
 
-// An image with its parts, to be damaged by tests; seal() makes it valid where it can be.
+// An image with its parts, for tests to damage. seal() writes the header and makes the file valid,
+// where what tests did to the parts allows.
 struct SmallFile {
   Image image;
+  Shape shape;
+  HeaderFields fields;
   ImageParts parts;
 
   std::span<std::byte> bytes() { return image.bytes(); }
+  FileHeader& header();
   std::span<Section> sections();
   template <int W>
   Node<W>& node(int index) {
@@ -30,21 +34,22 @@ struct SmallFile {
   void seal();
 };
 
-// Three nodes, twelve triangles, leaves of 5, 1, 4 and 2 in five blocks; sealed:
+// A sealed file of three nodes, twelve triangles, and leaves of 5, 1, 4 and 2 in five blocks:
 //   node 0: node 1, leaf of blocks 0 and 1
 //   node 1: node 2, leaf of block 2
 //   node 2: leaf of block 3, leaf of block 4
-// SOBBs have 16 directions; node 1 shares its basis, the others have one a child.
+// SOBBs have 16 directions; node 1 shares its basis, the others have one per child.
 SmallFile make_small_file(sobb_volume volume, uint32_t width);
 
-// The smallest file: the triangle (0,0,0) (1,0,0) (0,1,0) in a 4-wide AABB node; sealed.
+// The smallest file, sealed: the triangle (0,0,0) (1,0,0) (0,1,0) in a 4-wide AABB node.
 SmallFile make_smallest_file();
 
-// AABB nodes each of which is the only child of the one before, a leaf under the last; sealed.
+// A sealed file of AABB nodes, each the only child of the one before, with a leaf under the last.
 SmallFile make_chain(uint32_t node_count);
 
-// AABB nodes, all full of leaves of one triangle, the same everywhere, but for one child: the node
-// after. It is the first child of the first `turn` nodes and the last one of the others. Sealed.
+// A sealed file of full AABB nodes whose children are leaves of one and the same triangle, but for
+// one child per node: the next node. It is the first child of the first `turn` nodes and the last
+// child of the others.
 SmallFile make_comb(uint32_t width, uint32_t node_count, uint32_t turn);
 
 // A copy of arbitrary bytes, aligned as the reader expects.
@@ -54,7 +59,8 @@ Image copy_of(std::span<const std::byte> bytes);
 // bytes of the file.
 void reseal(std::span<std::byte> bytes);
 
-// Opens with one thread; the error, if any. A file that opens is read to its last triangle.
+// Opens with one thread and returns the error, if any. A file that opens is read to its last
+// triangle.
 std::optional<Error> error_of(std::span<const std::byte> bytes, const char* name = "scene.sobb");
 
 }  // namespace sobb::test

@@ -60,7 +60,7 @@ TEST(FormatDamage, WhatOpensIsSafeToTrace) {
   for (const sobb_volume volume : {SOBB_VOLUME_AABB, SOBB_VOLUME_SOBB}) {
     for (const uint32_t width : {4u, 8u}) {
       test::SmallFile file = test::make_small_file(volume, width);
-      const auto rays = rays_about(file.parts.header->centre);
+      const auto rays = rays_about(file.header().centre);
       ASSERT_TRUE(trace(file.bytes(), rays)) << sobb_last_error();
       for (size_t at = 0; at < file.bytes().size(); ++at) {
         for (const int change : {0x01, 0xC0}) {

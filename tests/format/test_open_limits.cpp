@@ -90,14 +90,14 @@ TEST(OpenLimits, AHugeFileIsGivenUpInTime) {
   const std::string path = folder.path("huge.sobb");
   for (const bool in_section : {false, true}) {
     test::SmallFile file = test::make_small_file(SOBB_VOLUME_AABB, 4);
-    file.parts.header->total_size = kHuge;
+    file.header().total_size = kHuge;
     // The last section, of the blocks, reaches to the end.
     Section& last = file.sections().back();
     if (in_section) {
       last.size = (kHuge - last.offset) / sizeof(TriangleBlock) * sizeof(TriangleBlock);
     }
     const size_t front = sizeof(FileHeader) + file.sections().size_bytes();
-    file.parts.header->header_checksum = header_checksum(file.bytes().first(front));
+    file.header().header_checksum = header_checksum(file.bytes().first(front));
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(file.bytes().data()),
                static_cast<std::streamsize>(file.bytes().size()));

@@ -60,61 +60,59 @@ INSTANTIATE_TEST_SUITE_P(
     Header, FormatRefusal,
     refusals(
         Refusal{"Magic", SOBB_ERROR_FORMAT_MAGIC, "not a sobb file",
-                [](SmallFile& f) { f.parts.header->magic[4] = 'b'; }},
+                [](SmallFile& f) { f.header().magic[4] = 'b'; }},
         Refusal{"Version", SOBB_ERROR_FORMAT_VERSION, "format version 2, this library reads",
-                [](SmallFile& f) { f.parts.header->version = 2; }},
+                [](SmallFile& f) { f.header().version = 2; }},
         Refusal{"VersionZero", SOBB_ERROR_FORMAT_VERSION, "format version 0",
-                [](SmallFile& f) { f.parts.header->version = 0; }},
+                [](SmallFile& f) { f.header().version = 0; }},
         Refusal{"TotalSizeLarger", SOBB_ERROR_FORMAT_SIZE,
-                "truncated: ", [](SmallFile& f) { f.parts.header->total_size = ~uint64_t{0}; }},
+                "truncated: ", [](SmallFile& f) { f.header().total_size = ~uint64_t{0}; }},
         Refusal{"TotalSizeSmaller", SOBB_ERROR_FORMAT_SIZE,
-                "bytes after its end: ", [](SmallFile& f) { f.parts.header->total_size -= 1; }},
+                "bytes after its end: ", [](SmallFile& f) { f.header().total_size -= 1; }},
         Refusal{"HeaderSize", SOBB_ERROR_FORMAT_HEADER, "header: header_size is 192",
-                [](SmallFile& f) { f.parts.header->header_size = 192; }},
+                [](SmallFile& f) { f.header().header_size = 192; }},
         Refusal{"SectionCount", SOBB_ERROR_FORMAT_HEADER, "header: section_count is 4294967295",
-                [](SmallFile& f) { f.parts.header->section_count = ~0u; }},
+                [](SmallFile& f) { f.header().section_count = ~0u; }},
         Refusal{"SectionCountBeyondFile", SOBB_ERROR_FORMAT_HEADER, "header: section_count is 64:",
-                [](SmallFile& f) { f.parts.header->section_count = 64; }},
+                [](SmallFile& f) { f.header().section_count = 64; }},
         Refusal{"HeaderChecksum", SOBB_ERROR_FORMAT_HEADER, "header: its checksum differs",
-                [](SmallFile& f) { f.parts.header->radius *= 2; }, false},
+                [](SmallFile& f) { f.header().radius *= 2; }, false},
         Refusal{"TableChecksum", SOBB_ERROR_FORMAT_HEADER, "header: its checksum differs",
                 [](SmallFile& f) { f.sections()[1].id = 7; }, false},
         Refusal{"Feature", SOBB_ERROR_FORMAT_FEATURE, "needs features 0x80000002",
-                [](SmallFile& f) { f.parts.header->must_understand = 0x80000002; }},
+                [](SmallFile& f) { f.header().must_understand = 0x80000002; }},
         Refusal{"Volume", SOBB_ERROR_FORMAT_HEADER, "header: volume is 3",
-                [](SmallFile& f) { f.parts.header->volume = 3; }},
+                [](SmallFile& f) { f.header().volume = 3; }},
         Refusal{"Width", SOBB_ERROR_FORMAT_HEADER, "header: width is 5",
-                [](SmallFile& f) { f.parts.header->width = 5; }},
+                [](SmallFile& f) { f.header().width = 5; }},
         Refusal{"WidthZero", SOBB_ERROR_FORMAT_HEADER, "header: width is 0",
-                [](SmallFile& f) { f.parts.header->width = 0; }},
+                [](SmallFile& f) { f.header().width = 0; }},
         Refusal{"DirectionCount", SOBB_ERROR_FORMAT_HEADER,
                 "header: direction_count of SOBBs is 17",
-                [](SmallFile& f) { f.parts.header->direction_count = 17; }},
+                [](SmallFile& f) { f.header().direction_count = 17; }},
         Refusal{"AabbOfManyDirections", SOBB_ERROR_FORMAT_HEADER,
                 "header: direction_count of AABBs is 16",
-                [](SmallFile& f) { f.parts.header->volume = SOBB_VOLUME_AABB; }},
+                [](SmallFile& f) { f.header().volume = SOBB_VOLUME_AABB; }},
         Refusal{"Centre", SOBB_ERROR_FORMAT_HEADER, "header: centre is nan",
-                [](SmallFile& f) { f.parts.header->centre[1] = kNaN; }},
+                [](SmallFile& f) { f.header().centre[1] = kNaN; }},
         Refusal{"CentreFar", SOBB_ERROR_FORMAT_HEADER, "header: centre is 2.30584e+18",
-                [](SmallFile& f) { f.parts.header->centre[2] = 0x1p61f; }},
+                [](SmallFile& f) { f.header().centre[2] = 0x1p61f; }},
         Refusal{"Radius", SOBB_ERROR_FORMAT_HEADER, "header: radius is inf",
-                [](SmallFile& f) { f.parts.header->radius = kInfinity; }},
+                [](SmallFile& f) { f.header().radius = kInfinity; }},
         Refusal{"RadiusNegative", SOBB_ERROR_FORMAT_HEADER, "header: radius is -1",
-                [](SmallFile& f) { f.parts.header->radius = -1; }},
+                [](SmallFile& f) { f.header().radius = -1; }},
         Refusal{"NoTriangle", SOBB_ERROR_FORMAT_HEADER, "header: triangle_count is 0",
-                [](SmallFile& f) { f.parts.header->triangle_count = 0; }},
+                [](SmallFile& f) { f.header().triangle_count = 0; }},
         Refusal{"TooManyTriangles", SOBB_ERROR_FORMAT_HEADER, "header: triangle_count is 4.29497e",
-                [](SmallFile& f) {
-                  f.parts.header->triangle_count = uint64_t{SOBB_MAX_TRIANGLES} + 1;
-                }},
+                [](SmallFile& f) { f.header().triangle_count = uint64_t{SOBB_MAX_TRIANGLES} + 1; }},
         Refusal{"Reserved0", SOBB_ERROR_FORMAT_HEADER, "header: reserved0 is 1",
-                [](SmallFile& f) { f.parts.header->reserved0 = 1; }},
+                [](SmallFile& f) { f.header().reserved0 = 1; }},
         Refusal{"Reserved1", SOBB_ERROR_FORMAT_HEADER, "header: reserved1 is 1",
-                [](SmallFile& f) { f.parts.header->reserved1[4] = 1; }},
+                [](SmallFile& f) { f.header().reserved1[4] = 1; }},
         Refusal{"DepthZero", SOBB_ERROR_FORMAT_DEPTH, "header: depth is 0, not 1 to 96",
-                [](SmallFile& f) { f.parts.header->depth = 0; }},
+                [](SmallFile& f) { f.header().depth = 0; }},
         Refusal{"DepthBeyondTheStack", SOBB_ERROR_FORMAT_DEPTH, "header: depth is 97",
-                [](SmallFile& f) { f.parts.header->depth = 97; }}),
+                [](SmallFile& f) { f.header().depth = 97; }}),
     name_of);
 
 // The sections in the file's order: directions, record, nodes, blocks.
@@ -143,9 +141,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"TwiceOne", SOBB_ERROR_FORMAT_SECTION, "2 sections of the direction table (id 1)",
                 [](SmallFile& f) { f.sections()[3].id = 1; }},
         Refusal{"TableSize", SOBB_ERROR_FORMAT_SECTION, "the direction table (section id 1) has",
-                [](SmallFile& f) { f.parts.header->direction_count = 24; }},
+                [](SmallFile& f) { f.header().direction_count = 24; }},
         Refusal{"NodesOfOtherWidth", SOBB_ERROR_FORMAT_SECTION, "the nodes (section id 2) has",
-                [](SmallFile& f) { f.parts.header->width = 8; }},
+                [](SmallFile& f) { f.header().width = 8; }},
         Refusal{"Gap", SOBB_ERROR_FORMAT_SECTION, "byte 448 is in no section and not zero",
                 [](SmallFile& f) {
                   f.sections()[1].offset = 64 * (f.bytes().size() / 64);
@@ -260,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
                   node(f, 2).reference[0] = 3;
                 }},
         Refusal{"DepthDiffers", SOBB_ERROR_FORMAT_DEPTH, "3 nodes deep, the header says 4",
-                [](SmallFile& f) { f.parts.header->depth = 4; }}),
+                [](SmallFile& f) { f.header().depth = 4; }}),
     name_of);
 
 INSTANTIATE_TEST_SUITE_P(
@@ -316,7 +314,7 @@ TEST(FormatRefusalAabb, DirectionsAndBasesAreTheAxes) {
 // Deeper than the header may say: it lies, and the walk notices.
 TEST(FormatRefusalTree, TooDeep) {
   SmallFile chain = test::make_chain(kMaxDepth + 1);
-  chain.parts.header->depth = kMaxDepth;
+  chain.header().depth = kMaxDepth;
   chain.seal();
   const auto error = test::error_of(chain.bytes());
   ASSERT_TRUE(error);
@@ -327,7 +325,7 @@ TEST(FormatRefusalTree, TooDeep) {
 // Of several faults the one with the lowest index is told, whatever thread comes to it first.
 TEST(FormatRefusalOrder, DoesNotDependOnThreads) {
   SmallFile chain = test::make_chain(20000);
-  chain.parts.header->depth = 1;
+  chain.header().depth = 1;
   for (const int index : {19999, 12000, 3001, 3000}) chain.node<4>(index).slab[0][0][0] = kNaN;
   chain.seal();
   for (const uint32_t threads : {0u, 1u, 2u, 3u}) {

@@ -34,7 +34,7 @@ TEST_P(Format, OpensAndShowsWhatWasWritten) {
   Memory scratch;
   Progress progress(nullptr, nullptr);
   const FileView view = read_image(file_.bytes(), "scene.sobb", scheduler, scratch, progress);
-  EXPECT_EQ(view.header, file_.parts.header);
+  EXPECT_EQ(view.header, &file_.header());
   EXPECT_EQ(view.directions.data(), file_.parts.directions.data());
   EXPECT_EQ(view.directions.size(), file_.parts.directions.size());
   EXPECT_EQ(view.nodes, file_.parts.nodes);
@@ -61,7 +61,7 @@ TEST_P(Format, SectionsAreAlignedAndInTheOrderOfTheDocument) {
 
 TEST_P(Format, SealingTwiceChangesNothing) {
   const Image before = test::copy_of(file_.bytes());
-  seal_image(file_.image, Scheduler(3, nullptr));
+  finish_image(file_.image, file_.shape, file_.fields, Scheduler(3, nullptr));
   EXPECT_TRUE(std::ranges::equal(before.bytes(), file_.bytes()));
 }
 
@@ -109,7 +109,7 @@ TEST(FormatSections, UnknownOnesArePassedOverButChecked) {
 
 TEST(FormatHeader, IgnorableFeaturesAreIgnored) {
   SmallFile file = test::make_smallest_file();
-  file.parts.header->ignorable = 0x80000001;
+  file.header().ignorable = 0x80000001;
   file.seal();
   EXPECT_FALSE(test::error_of(file.bytes()));
 }

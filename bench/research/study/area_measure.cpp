@@ -2,7 +2,7 @@
 #include "study/area_measure.h"
 
 #include "base/isa.h"
-#include "builder/volumes/leaf.h"
+#include "builder/volumes/leaf_kdop.h"
 
 namespace sobb::study {
 

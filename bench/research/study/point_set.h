@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bounds/basis.h"
+#include "builder/boxes/box.h"
 #include "builder/mesh.h"
-#include "builder/topology/box.h"
 #include "builder/topology/topology.h"
 
 namespace sobb::study {

@@ -3,8 +3,8 @@
 // triangles that a secondary ray meets there and on the library's 8-wide nodes.
 #include <filesystem>
 
-#include "builder/topology/frame.h"
-#include "builder/volumes/scene_directions.h"
+#include "builder/boxes/frame.h"
+#include "builder/scene_directions.h"
 #include "study/basis_rules.h"
 #include "study/counting_trace.h"
 #include "study/direction_file.h"
@@ -20,21 +20,34 @@ constexpr BasisRule kShared = {BasisFrom::kSumOrAxes, SOBB_STRATEGY_K2, true};
 
 struct NamedTable {
   std::string name;
-  std::vector<Direction> directions;
+  DirectionSet set;
 };
 
 NamedTable default_table(uint32_t k) {
-  const auto directions = default_directions(k);
-  return {k == 6 ? "AABB" : "default " + std::to_string(k), {directions.begin(), directions.end()}};
+  return {k == 6 ? "AABB" : "default " + std::to_string(k),
+          default_direction_set(k, *std::pmr::get_default_resource())};
 }
 
 NamedTable fitted_table(StudyScene& scene, uint32_t k) {
-  const auto directions = scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory());
-  return {"fitted " + std::to_string(k), {directions.begin(), directions.end()}};
+  const auto set = scene_directions(scene.mesh(), k, scene.scheduler(), scene.memory());
+  return {"fitted " + std::to_string(k), set};
+}
+
+// A table of text. Where it begins with the axes, its topology is built along them.
+NamedTable read_table(const std::string& path) {
+  const std::vector<Direction> directions = read_directions(path);
+  const auto axes = default_directions(6);
+  const bool along_axes = std::equal(axes.begin(), axes.end(), directions.begin(),
+                                     [](const Direction& a, const Direction& b) {
+                                       return a.x == b.x && a.y == b.y && a.z == b.z;
+                                     });
+  return {
+      std::filesystem::path(path).stem().string(),
+      {{directions.begin(), directions.end()}, along_axes ? SOBB_TABLE_SPREAD : SOBB_TABLE_FITTED}};
 }
 
 Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
-                   const std::vector<Direction>& directions, const BasisRule& rule,
+                   const std::pmr::vector<Direction>& directions, const BasisRule& rule,
                    WorkCounter& counter) {
   const DirectionTable table = make_direction_table(directions);
   const MeshSummary& summary = scene.summary();
@@ -53,14 +66,13 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
 }
 
 Json measure_table(StudyScene& scene, const NamedTable& table, WorkCounter& counter) {
-  const Frame frame(table.directions, scene.summary().centre);
+  const auto& directions = table.set.directions;
+  const Frame frame(table.set, scene.summary().centre);
   const Topology topology = scene.build_topology(frame);
-  const bool aabb = table.directions.size() == 3;
-  return {
-      {"table", table.name},
-      {"binary", measure_width(scene, topology, 2, table.directions, aabb ? kAxes : kOwn, counter)},
-      {"wide",
-       measure_width(scene, topology, 8, table.directions, aabb ? kAxes : kShared, counter)}};
+  const bool aabb = directions.size() == 3;
+  return {{"table", table.name},
+          {"binary", measure_width(scene, topology, 2, directions, aabb ? kAxes : kOwn, counter)},
+          {"wide", measure_width(scene, topology, 8, directions, aabb ? kAxes : kShared, counter)}};
 }
 
 }  // namespace
@@ -70,7 +82,7 @@ int tables(const StudyOptions& options) {
   tables.push_back(default_table(6));
   for (const uint32_t k : kPlanes) tables.push_back(default_table(k));
   for (const std::string& path : options.directions) {
-    tables.push_back({std::filesystem::path(path).stem().string(), read_directions(path)});
+    tables.push_back(read_table(path));
   }
   write_report(options, "tables", for_each_scene(options, [&](StudyScene& scene) {
                  const auto rays = scene.secondary_rays(options.size);

@@ -12,8 +12,8 @@ namespace {
 constexpr uint64_t kGrain = 4096;
 
 // Appends a part's nodes; its indices are the tree's.
-void append(const Part& part, const References& references, Tree& tree) {
-  for (const WideNode& wide : part.nodes) {
+void append(const Treelet& treelet, const References& references, Tree& tree) {
+  for (const WideNode& wide : treelet.nodes) {
     tree.nodes.push_back({static_cast<uint32_t>(tree.children.size()), wide.child_count});
     for (uint32_t i = 0; i < wide.child_count; ++i) {
       if (!wide.is_leaf(i)) {
@@ -40,7 +40,7 @@ Tree make_tree(const Topology& topology, uint32_t width, const Scheduler& schedu
   tree.depth = wide.depth;
   tree.nodes.reserve(wide.node_count);
   append(wide.top, wide.references, tree);
-  for (const Part& part : wide.subtrees) append(part, wide.references, tree);
+  for (const Treelet& treelet : wide.subtrees) append(treelet, wide.references, tree);
   return tree;
 }
 

@@ -12,16 +12,6 @@
 namespace sobb::study {
 namespace {
 
-void fill_header(const Mesh& mesh, const MeshSummary& summary, uint32_t depth, FileHeader& header) {
-  header.volume = SOBB_VOLUME_SOBB;
-  header.depth = depth;
-  header.centre[0] = summary.centre.x;
-  header.centre[1] = summary.centre.y;
-  header.centre[2] = summary.centre.z;
-  header.radius = summary.radius;
-  header.triangle_count = mesh.triangle_count();
-}
-
 void fill_record(const Mesh& mesh, const MeshSummary& summary, BuildRecord& record) {
   record.quality = SOBB_QUALITY_MEDIUM;
   record.strategy = SOBB_STRATEGY_K2;
@@ -44,18 +34,28 @@ std::shared_ptr<sobb_hierarchy> make_hierarchy(const Mesh& mesh, const MeshSumma
   const Scheduler scheduler(1, nullptr);
   Progress progress(nullptr, nullptr);
   const auto directions = default_directions(64);
+  const Frame frame;
+  const VolumeScene scene = {mesh,
+                             frame,
+                             directions,
+                             {summary.centre.x, summary.centre.y, summary.centre.z},
+                             summary.radius};
+  const Shape shape = {width, static_cast<uint32_t>(directions.size()), layout.topology.node_count,
+                       layout.topology.block_count};
   ImageParts parts;
-  Image image = begin_image(memory,
-                            {width, static_cast<uint32_t>(directions.size()),
-                             layout.topology.node_count, layout.topology.block_count},
-                            parts);
-  fill_header(mesh, summary, layout.topology.depth, *parts.header);
+  Image image = begin_image(memory, shape, parts);
   fill_record(mesh, summary, *parts.record);
   std::copy(directions.begin(), directions.end(), parts.directions.begin());
-  make_volumes(mesh, layout.topology,
-               {SOBB_VOLUME_SOBB, SOBB_STRATEGY_K2, resolve_isa(SOBB_ISA_BEST)}, parts, scheduler,
-               *memory, progress, 0);
-  seal_image(image, scheduler);
+  make_volumes(scene, layout.topology,
+               {SOBB_VOLUME_SOBB, SOBB_STRATEGY_K2, resolve_isa(SOBB_ISA_BEST)},
+               {width, parts.nodes, parts.blocks}, scheduler, *memory, progress, 0);
+  finish_image(image, shape,
+               {SOBB_VOLUME_SOBB,
+                layout.topology.depth,
+                {scene.centre[0], scene.centre[1], scene.centre[2]},
+                scene.radius,
+                mesh.triangle_count()},
+               scheduler);
   sobb_hierarchy* hierarchy = nullptr;
   const sobb_status status =
       sobb_open_memory(image.bytes().data(), image.bytes().size(), nullptr, &hierarchy);

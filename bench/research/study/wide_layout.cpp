@@ -31,7 +31,7 @@ WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_
   const References references{primitives, {}};
   WideLayout layout{std::move(primitives), WideTopology(references, memory), 0, 0};
 
-  Part& part = layout.topology.top;
+  Treelet& part = layout.topology.top;
   struct Open {
     uint32_t root;   // in the tree
     uint32_t index;  // of the wide node

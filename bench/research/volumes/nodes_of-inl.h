@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "builder/wide/bottom_up.h"
 #include "format/image.h"
 #include "trace/single/trace_rays-inl.h"
 #include "volumes/nodes.h"
@@ -61,9 +62,7 @@ class NodesOf final : public Hierarchy::Nodes {
     // The threads that fill the nodes zero them.
     image_ = Image::allocate(memory_, wide.node_count * sizeof(Node), /*zeroed=*/0);
     nodes_ = reinterpret_cast<Node*>(image_.bytes().data());
-    std::pmr::vector<Known> roots(wide.subtrees.size(), memory_.get());
-    scheduler.for_each(wide.subtrees.size(),
-                       [&](uint64_t i) HWY_ATTR { roots[i] = make_part(wide.subtrees[i]); });
+    const auto roots = walk_subtrees(wide, SubtreeMaker{*this}, scheduler, *memory_, [](double) {});
     make_top(roots, scheduler);
   }
 
@@ -104,13 +103,13 @@ class NodesOf final : public Hierarchy::Nodes {
   using Hull = typename V::Hull;
   static constexpr uint64_t kGrain = 4096;
 
-  // What is known of a subtree: its hull, and where its triangles lie, which is one range.
-  struct Known {
+  // A subtree: its hull, and where its triangles lie, which is one range.
+  struct BoundedSubtree {
     Hull hull;
     BlockRange range;
   };
 
-  void fit_leaf(const WideNode& wide, uint32_t child, Known& leaf) const {
+  void fit_leaf(const WideNode& wide, uint32_t child, BoundedSubtree& leaf) const {
     const uint64_t count = wide.count[child];
     leaf.range = {wide.index[child], wide.index[child] + blocks_of(count)};
     RelativePoint points[3 * kMaxLeafReferences];
@@ -138,59 +137,69 @@ class NodesOf final : public Hierarchy::Nodes {
     node.meta[0] |= static_cast<uint16_t>(wide.child_count << kChildCountShift);
   }
 
-  // Last to first, so that children come before their parent. Returns the root's.
-  Known make_part(const Part& part) const {
-    std::pmr::vector<Known> known(part.nodes.size(), memory_.get());
-    for (size_t at = part.nodes.size(); at-- > 0;) {
-      const WideNode& wide = part.nodes[at];
-      Node& node = *new (&nodes_[part.first_node + at]) Node{};
+  // Makes the nodes of subtrees (builder/wide/bottom_up.h).
+  struct SubtreeMaker {
+    using Value = BoundedSubtree;
+    const NodesOf& nodes;
+
+    void prefetch(const Treelet&, size_t) const {}
+    void visit_leaf(const WideNode& wide, uint32_t i, BoundedSubtree& leaf) const {
+      nodes.fit_leaf(wide, i, leaf);
+    }
+    void visit_node(uint64_t index, const WideNode& wide, const BoundedSubtree* const* child,
+                    BoundedSubtree& bounded) const {
+      Node& node = *new (&nodes.nodes_[index]) Node{};
+      bounded = *child[0];
       for (uint32_t i = 0; i < wide.child_count; ++i) {
-        Known leaf;
-        if (wide.is_leaf(i)) fit_leaf(wide, i, leaf);
-        const Known& child = wide.is_leaf(i) ? leaf : known[wide.index[i] - part.first_node];
-        write_child(wide, i, child.hull, {&child.range, 1}, node);
-        if (i == 0) {
-          known[at] = child;
-        } else {
-          known[at].hull.merge(child.hull);
-          known[at].range = {std::min(known[at].range.first, child.range.first),
-                             std::max(known[at].range.end, child.range.end)};
-        }
+        nodes.write_child(wide, i, child[i]->hull, {&child[i]->range, 1}, node);
+        if (i == 0) continue;
+        bounded.hull.merge(child[i]->hull);
+        bounded.range = {std::min(bounded.range.first, child[i]->range.first),
+                         std::max(bounded.range.end, child[i]->range.end)};
       }
       finish(wide, node);
     }
-    return known[0];
-  }
+  };
 
-  // A child of a node of the top.
+  // A child of a node of the top, whose triangles lie in several ranges.
   struct TopChild {
     Hull hull;
     std::vector<BlockRange> ranges;
   };
 
-  // The top's hulls one after the other, its volumes in parallel: each looks at many triangles.
-  void make_top(const std::pmr::vector<Known>& roots, const Scheduler& scheduler) const {
+  // Merges the hulls of the top, and keeps every node's children.
+  struct TopMaker {
+    using Value = TopChild;
+    const NodesOf& nodes;
+    std::vector<TopChild>& children;  // W per node
+
+    void prefetch(const Treelet&, size_t) const {}
+    void visit_leaf(const WideNode& wide, uint32_t i, TopChild& leaf) const {
+      BoundedSubtree bounded;
+      nodes.fit_leaf(wide, i, bounded);
+      leaf = {bounded.hull, {bounded.range}};
+    }
+    void visit_node(uint64_t index, const WideNode& wide, const TopChild* const* child,
+                    TopChild& merged) const {
+      merged = *child[0];
+      for (uint32_t i = 0; i < wide.child_count; ++i) {
+        children[index * W + i] = *child[i];
+        if (i == 0) continue;
+        merged.hull.merge(child[i]->hull);
+        merged.ranges.insert(merged.ranges.end(), child[i]->ranges.begin(), child[i]->ranges.end());
+      }
+    }
+  };
+
+  // The top's hulls are merged one after the other; its volumes are fitted in parallel, since each
+  // looks at many triangles.
+  void make_top(const std::pmr::vector<BoundedSubtree>& roots, const Scheduler& scheduler) const {
     const WideTopology& wide = layout_.wide;
     const size_t count = wide.top.nodes.size();
     std::vector<TopChild> children(count * W);
-    size_t subtree = roots.size();
-    for (size_t at = count; at-- > 0;) {
-      const WideNode& node = wide.top.nodes[at];
-      for (uint32_t i = node.child_count; i-- > 0;) {
-        TopChild& child = children[at * W + i];
-        const bool has_subtree = subtree > 0 && wide.places[subtree - 1].node == at &&
-                                 wide.places[subtree - 1].child == i;
-        if (has_subtree || node.is_leaf(i)) {
-          Known leaf;
-          if (!has_subtree) fit_leaf(node, i, leaf);
-          const Known& known = has_subtree ? roots[--subtree] : leaf;
-          child = {known.hull, {known.range}};
-        } else {
-          merge_children(wide.top.nodes[node.index[i]], &children[size_t{node.index[i]} * W],
-                         child);
-        }
-      }
-    }
+    std::pmr::vector<TopChild> top_roots(memory_.get());
+    for (const BoundedSubtree& root : roots) top_roots.push_back({root.hull, {root.range}});
+    walk_top(wide, TopMaker{*this, children}, *memory_, top_roots);
     scheduler.for_each(count, [&](uint64_t at) HWY_ATTR {
       const WideNode& node = wide.top.nodes[at];
       new (&nodes_[at]) Node{};
@@ -200,15 +209,6 @@ class NodesOf final : public Hierarchy::Nodes {
       }
       finish(node, nodes_[at]);
     });
-  }
-
-  static void merge_children(const WideNode& node, const TopChild* children, TopChild& merged) {
-    merged = children[0];
-    for (uint32_t i = 1; i < node.child_count; ++i) {
-      merged.hull.merge(children[i].hull);
-      merged.ranges.insert(merged.ranges.end(), children[i].ranges.begin(),
-                           children[i].ranges.end());
-    }
   }
 
   void add_areas(const Node& node, Areas& sum) const {

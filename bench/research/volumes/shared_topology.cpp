@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "builder/volumes/leaf.h"
+#include "builder/volumes/node_writer.h"
 
 namespace sobb::study {
 namespace {
@@ -18,7 +18,7 @@ double ms_since(Clock::time_point start) {
 
 // Calls visit(its references, its first block) for every leaf of a part.
 template <class Visit>
-void for_leaves(const Part& part, const References& references, const Visit& visit) {
+void for_leaves(const Treelet& part, const References& references, const Visit& visit) {
   for (const WideNode& node : part.nodes) {
     for (uint32_t i = 0; i < node.child_count; ++i) {
       if (!node.is_leaf(i)) continue;
@@ -35,7 +35,7 @@ std::unique_ptr<SharedTopology::Layout> make_layout(const Mesh& mesh, const Topo
       std::make_unique<SharedTopology::Layout>(collapse(topology, width, scheduler, *memory));
   layout->block_bytes = Image::allocate(memory, layout->wide.block_count * sizeof(TriangleBlock));
   auto* blocks = reinterpret_cast<TriangleBlock*>(layout->block_bytes.bytes().data());
-  const auto write = [&](const Part& part) {
+  const auto write = [&](const Treelet& part) {
     for_leaves(part, layout->wide.references, [&](const References& leaf, uint32_t block) {
       write_blocks(mesh, leaf.primitives, blocks + block);
     });
@@ -51,7 +51,7 @@ uint64_t count_leaves(const WideTopology& wide) {
   uint64_t count = 0;
   const auto add = [&](const References&, uint32_t) { ++count; };
   for_leaves(wide.top, wide.references, add);
-  for (const Part& part : wide.subtrees) for_leaves(part, wide.references, add);
+  for (const Treelet& part : wide.subtrees) for_leaves(part, wide.references, add);
   return count;
 }
 

@@ -2,14 +2,11 @@
 // The handle: build, references, information.
 #include "hierarchy.h"
 
-#include <algorithm>
 #include <memory_resource>
-#include <span>
 #include <utility>
 
 #include "../guard.h"
 #include "base/isa.h"
-#include "bounds/directions/direction_table.h"
 #include "format/statistics.h"
 
 using sobb::guard;
@@ -35,20 +32,6 @@ sobb_hierarchy* make_hierarchy(std::shared_ptr<Memory> memory, Image image, cons
 }
 
 }  // namespace sobb
-
-namespace {
-
-// The file has the directions alone: where they are the library's own, no scene's were needed.
-sobb_table table_of(std::span<const sobb::Direction> directions) {
-  const auto spread = sobb::default_directions(2 * static_cast<uint32_t>(directions.size()));
-  const bool same = std::equal(directions.begin(), directions.end(), spread.begin(),
-                               [](const sobb::Direction& a, const sobb::Direction& b) {
-                                 return a.x == b.x && a.y == b.y && a.z == b.z;
-                               });
-  return same ? SOBB_TABLE_SPREAD : SOBB_TABLE_FITTED;
-}
-
-}  // namespace
 
 extern "C" {
 
@@ -121,7 +104,7 @@ sobb_status sobb_get_info(const sobb_hierarchy* hierarchy, sobb_info* info) {
     known.volume_ms = hierarchy->times.volume_ms;
     known.total_ms = hierarchy->times.total_ms;
     known.peak_bytes = hierarchy->peak_bytes;
-    known.table = table_of(view.directions);
+    known.table = view.table;
     sobb::write_info(known, info, "info");
   });
 }

@@ -2,6 +2,8 @@
 // The default direction sets, and a set's form for kernels.
 #include "bounds/directions/direction_table.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace sobb {
@@ -45,6 +47,20 @@ std::span<const Direction> default_directions(uint32_t k) {
   }
   fail(SOBB_ERROR_INVALID_ARGUMENT,
        "no default directions for k = %u; there are for 6, 32, 48, 64, 128, 256", k);
+}
+
+DirectionSet default_direction_set(uint32_t k, std::pmr::memory_resource& memory) {
+  const auto directions = default_directions(k);
+  return {{directions.begin(), directions.end(), &memory}, SOBB_TABLE_SPREAD};
+}
+
+sobb_table table_of_file(std::span<const Direction> directions) {
+  const auto spread = default_directions(2 * static_cast<uint32_t>(directions.size()));
+  const bool same = std::equal(directions.begin(), directions.end(), spread.begin(),
+                               [](const Direction& a, const Direction& b) {
+                                 return a.x == b.x && a.y == b.y && a.z == b.z;
+                               });
+  return same ? SOBB_TABLE_SPREAD : SOBB_TABLE_FITTED;
 }
 
 }  // namespace sobb

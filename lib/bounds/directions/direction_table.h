@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The K = k/2 unit normals that slabs are measured along.
+// The K = k/2 unit normals that slabs are measured along: the library's own sets, and their forms.
+//
+// The room `bounds/directions` makes such tables: direction_histogram finds the directions that
+// triangles prefer, principal_axes and fitted_directions make candidate frames of them, and turn
+// the library's own set into a frame. It knows directions only, no mesh; `builder/scene_directions`
+// brings the triangles.
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <span>
+#include <vector>
 
 #include "bounds/basis.h"
+#include "sobb/sobb.h"
 
 namespace sobb {
 
@@ -19,9 +27,22 @@ struct alignas(64) DirectionTable {
 
 DirectionTable make_direction_table(std::span<const Direction> directions);
 
-// The default set for a k-DOP of k = 6 (the axes), 32, 48, 64, 128 or 256 planes. Sets begin with
-// the axes; the rest was optimised by scripts/direction_tables.py, which prints smallest angle and
-// covering radius. Those for 128 and 256 are for studies: no DirectionTable and no file holds them.
+// The default set for a k-DOP of k = 6 (the axes), 32, 48, 64, 128 or 256 planes. Each set begins
+// with the axes; the rest was optimised by scripts/direction_tables.py, which prints the smallest
+// angle and the covering radius. The sets for 128 and 256 serve studies: no DirectionTable and no
+// file holds them.
 std::span<const Direction> default_directions(uint32_t k);
+
+// Directions chosen for a hierarchy, and how they were chosen.
+struct DirectionSet {
+  std::pmr::vector<Direction> directions;
+  sobb_table table;  // SOBB_TABLE_SPREAD: the default set, whose first three are the axes
+};
+
+DirectionSet default_direction_set(uint32_t k, std::pmr::memory_resource& memory);
+
+// Tells which table a file has. A file holds the directions alone, so they are compared with the
+// default set of as many.
+sobb_table table_of_file(std::span<const Direction> directions);
 
 }  // namespace sobb

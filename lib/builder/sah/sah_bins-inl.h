@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binning, splits and partitions of references. Included once for each Highway target.
+// Binning references by their centres, finding the best split, partitioning by it.
 //
-// A split's cost is that of its sides over the node's area: sum area(side) blocks(side) / area,
-// with blocks(n) = ceil(n / 4), for that is what a leaf is tested by.
+// A split's cost is sum area(side) blocks(side) / area(node), where blocks(n) = ceil(n / 4) is the
+// number of triangle blocks that a leaf of n triangles takes.
 #if defined(SOBB_BUILDER_SAH_SAH_BINS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BUILDER_SAH_SAH_BINS_INL_H
 #undef SOBB_BUILDER_SAH_SAH_BINS_INL_H
@@ -48,7 +48,7 @@ HWY_INLINE void copy(const SahReference& from, SahReference& to) {
 // Twice the centre of a reference.
 HWY_INLINE hn::Vec<Tag4> centre_of(const SahReference& reference) {
   const Tag4 d;
-  // Without the primitive: as a float it may be anything.
+  // Lane 3 is masked: a primitive as a float may be anything.
   const auto axes = hn::FirstN(d, 3);
   return hn::IfThenElseZero(
       axes, hn::Sub(hn::Load(d, reference.lower), hn::Load(d, reference.minus_upper)));
@@ -101,8 +101,8 @@ void merge(const Bins& from, const Binning& binning, Bins& into) {
   }
 }
 
-// Boxes' areas over that of a node's box; lengths are measured in its longest side, so that nothing
-// overflows.
+// Computes areas of boxes over the area of a node's box. Lengths are measured in units of its
+// longest side, so that nothing overflows.
 class Areas {
  public:
   explicit Areas(const FlatBox& node) {
@@ -113,7 +113,7 @@ class Areas {
     if (area > 0) inverse_ = 1 / area;
   }
 
-  // 1 where the node has no area: then all that counts are blocks.
+  // 1 where the node has no area: then only blocks count.
   float operator()(const FlatBox& box) const {
     return inverse_ > 0 ? half_area(box) * inverse_ : 1;
   }
@@ -136,7 +136,7 @@ Split find_split(const SahNode& node, const Bins& bins, const Binning& binning) 
   const Areas area(node.extent.box);
   Split best;
   for (int axis = 0; axis < 3; ++axis) {
-    // A reference that is in one bin ends where it begins.
+    // By centres and lengths a reference is in one bin, and ends where it begins.
     const uint32_t* ends = binning.kind == SplitKind::kPlanes ? bins.ends[axis] : bins.count[axis];
     if (ends[0] == node.count) continue;  // all in one
     float right_cost[kMaxBins];
@@ -183,7 +183,7 @@ void partition_centres(const SahReference* references, uint64_t count, const Spl
   const Int4 di;
   const auto base = hn::Load(d, split.binning.base);
   const auto scale = hn::Load(d, split.binning.scale);
-  // Only the split's axis can be at or past its bin.
+  // Along the other axes every reference counts as left.
   alignas(16) int32_t first[4] = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
   first[split.axis] = static_cast<int32_t>(split.bin);
   const auto bound = hn::Load(di, first);

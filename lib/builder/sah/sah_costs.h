@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the surface area heuristic of the topology counts.
+// The costs that the surface area heuristic of the topology counts.
 #pragma once
 
 namespace sobb {
 
 // Costs of a binary step and of a block of four triangles. A wide node takes about three binary
-// steps at once. (From 0.25 to 1 a ray's visits shift between nodes and blocks, its time does
-// not; files become smaller.)
+// steps at once. (When the step's cost goes from 0.25 to 1, a ray's visits shift between nodes and
+// blocks, its time stays, and files become smaller.)
 inline constexpr float kBinaryStepCost = 0.75F;
 inline constexpr float kLeafBlockCost = 1.0F;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splits by planes: references in all bins that they meet, and cut. Included once for each Highway
-// target.
+// Spatial splits: references are in all bins that they meet, and a plane cuts them.
 #if defined(SOBB_BUILDER_SAH_SAH_CUTS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BUILDER_SAH_SAH_CUTS_INL_H
 #undef SOBB_BUILDER_SAH_SAH_CUTS_INL_H
@@ -8,21 +7,22 @@
 #define SOBB_BUILDER_SAH_SAH_CUTS_INL_H
 #endif
 
+#include "builder/boxes/clip.h"
 #include "builder/sah/sah_bins-inl.h"
-#include "builder/topology/clip.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
-// The first and the last bin that a reference meets, along one axis.
+// The first and the last bin that a reference meets along one axis.
 struct BinRange {
   uint32_t first;
   uint32_t last;
 };
 
-// A bin has its lower plane but not its upper one, on which much lies in scenes made of boxes.
+// A bin includes its lower plane and excludes its upper one: in scenes made of boxes much lies on
+// planes.
 HWY_INLINE BinRange range_of(const SahReference& reference, const Binning& binning, int axis) {
   const float base = binning.base[axis];
   const float scale = binning.scale[axis];
@@ -33,13 +33,13 @@ HWY_INLINE BinRange range_of(const SahReference& reference, const Binning& binni
   return {static_cast<uint32_t>(first), static_cast<uint32_t>(std::max(first, last))};
 }
 
-// The plane below a bin.
+// The lower plane of a bin.
 HWY_INLINE float plane_of(const Binning& binning, int axis, uint32_t bin) {
   return binning.base[axis] + static_cast<float>(bin) / binning.scale[axis];
 }
 
-// A triangle's corners as boxes. Parts in bins only tell what a split would cost, so that rounding
-// does not matter.
+// A triangle's corners as boxes. The parts of a triangle in bins only estimate a split's cost, so
+// their rounding does not matter.
 struct FlatTriangle {
   FlatBox corner[3];
 
@@ -68,10 +68,10 @@ HWY_INLINE FlatBox between(const FlatBox& a, const FlatBox& b, float s) {
   return point;
 }
 
-// Cuts `box` down to what it shares with a reference's. Returns whether there is anything.
+// Shrinks `box` to what it shares with a reference's box. Returns false where that is nothing.
 HWY_INLINE bool clip(FlatBox& box, const SahReference& reference) {
   const Tag8 d;
-  const float* within = reference.lower;  // all eight words from there
+  const float* within = reference.lower;  // the first of all eight words
   for (size_t i = 0; i < 8; i += hn::Lanes(d)) {
     hn::Store(hn::Max(hn::Load(d, within + i), hn::Load(d, box.at + i)), d, box.at + i);
   }
@@ -81,7 +81,7 @@ HWY_INLINE bool clip(FlatBox& box, const SahReference& reference) {
   return true;
 }
 
-// Adds a reference to all bins that it meets along an axis, each growing by the part within.
+// Grows all bins that a reference meets along an axis by the part of its triangle within them.
 void bin_parts(const FlatTriangle& triangle, const SahReference& reference, const Binning& binning,
                int axis, BinRange range, FlatBox* boxes) {
   FlatBox part[kMaxBins];
@@ -138,12 +138,14 @@ void bin_planes(const SahReference* references, uint64_t count, const Binning& b
   }
 }
 
-// Which sides of a split a reference is on, and as what.
+// The sides of a split that a reference is on, and what it is there.
 struct Parts {
   bool is_on[2];
   SahReference part[2];
 };
 
+// Puts references on the sides of one spatial split: on one side, whole, where that costs no more,
+// else a part on either side.
 class Cutter {
  public:
   Cutter(const SahNode& node, const Split& split, const Cutting& cutting)
@@ -172,8 +174,8 @@ class Cutter {
   }
 
  private:
-  // The side where the whole reference costs no more than both parts, -1 for none:
-  // sum area(side) count(side).
+  // The side on which the whole reference costs no more than a part on either side does, by
+  // sum area(side) count(side); -1 where there is none.
   int cheaper_whole(const SahReference& reference) const {
     float least = side_area_[0] * side_count_[0] + side_area_[1] * side_count_[1];
     int best = -1;
@@ -195,9 +197,9 @@ class Cutter {
     split_box(Corners(cutting_.mesh, reference.primitive, cutting_.frame), reference.box(),
               split_.axis, plane_, box[0], box[1]);
     for (int side = 0; side < 2; ++side) {
-      // Inside out where the triangle has nothing there.
+      // A box is inside out where the triangle has no part on that side.
       for (int k = 0; k < 3; ++k) parts.is_on[side] &= box[side].lower[k] <= box[side].upper[k];
-      parts.part[side] = SahReference::of(box[side], reference.primitive);
+      parts.part[side] = SahReference::part(box[side], reference.primitive);
     }
   }
 

@@ -32,22 +32,26 @@ namespace sobb {
 
 namespace {
 
-// The part of a node's area that the sides of its split must have in common before another kind of
-// split is tried.
+// Another kind of split is tried only where the sides of the best split have this share of the
+// node's area in common.
 constexpr double kNotableOverlap = 0.2;
 
-// Large triangles are told from small ones only where that is so much cheaper: both lie in the same
-// place, and a ray meets both. (Nodes a diffuse ray: crown 14.4 without, 11.9 at 0.8 and 0.4; San
-// Miguel 18.3 without, 23.1 at 0.8, 18.2 at 0.4.)
+// A split by lengths must cost less than this share of the best split's cost: large and small
+// triangles lie in the same place, and a ray meets both. Nodes per diffuse ray, by this share:
+//                without    0.8    0.4
+//   crown           14.4   11.9   11.9
+//   San Miguel      18.3   23.1   18.2
 constexpr float kLengthsAdvantage = 0.4F;
 
-// The part of the references that a plane must cut. Where it is fewer, what both sides of another
-// split have in common is nearly empty, and costs less than the surface area heuristic believes.
-// (Nodes a diffuse ray, city and San Miguel: 7.1 and 13.7 at 0, 6.8 and 13.7 at 0.0005, 6.6 and
-// 17.9 at 0.01.)
+// A plane must cut this share of the references. Where it cuts fewer, the space that both sides of
+// another split have in common is nearly empty, and costs less than the surface area heuristic
+// believes. Nodes per diffuse ray, by this share:
+//                      0   0.0005   0.01
+//   city             7.1      6.8    6.6
+//   San Miguel      13.7     13.7   17.9
 constexpr double kLeastCut = 0.0005;
 
-// Bins of equal width from `lower` to `upper`.
+// Makes bins of equal width from `lower` to `upper`.
 Binning make_bins(const float* lower, const float* upper, uint32_t count, SplitKind kind) {
   Binning binning = {};
   binning.count = count;
@@ -62,7 +66,7 @@ Binning make_bins(const float* lower, const float* upper, uint32_t count, SplitK
   return binning;
 }
 
-// Half the area that both sides of a split have in common; all the node's without one.
+// Half the area that both sides of a split have in common; half the node's where there is no split.
 double overlap(const SahNode& node, const Split& split) {
   Box common = node.extent.box.box();
   if (split.axis >= 0) {

@@ -3,6 +3,11 @@
 // SAH-based Bounding Volume Hierarchies", 2007), with leaves that are made of blocks of triangles,
 // and spatial splits (M. Stich, H. Friedrich, A. Dietrich, "Spatial Splits in Bounding Volume
 // Hierarchies", 2009).
+//
+// The room `builder/sah` splits one node, or builds one subtree: sah_bins-inl.h bins references by
+// their centres, sah_cuts-inl.h cuts them at planes, sah_kinds-inl.h tells large triangles from
+// small ones, sah_subtree-inl.h builds a subtree by all three. It knows `builder/boxes`; only
+// `builder/topology` calls it.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +16,16 @@
 #include <memory_resource>
 #include <vector>
 
+#include "builder/boxes/binary_nodes.h"
+#include "builder/boxes/frame.h"
 #include "builder/sah/sah_costs.h"
-#include "builder/topology/topology.h"
 #include "format/layout.h"
+#include "sobb/sobb.h"
 
 namespace sobb {
 
-// A box as one vector: lanes 0 to 2 its lower, 4 to 6 its upper corner, negated, so that boxes grow
-// by one minimum. Lane 3 of a reference's box holds its primitive, elsewhere lanes 3 and 7 are
-// void.
+// A box as one vector: lanes 0 to 2 are its lower corner, lanes 4 to 6 its upper corner, negated,
+// so that one minimum grows a box. What lanes 3 and 7 hold does not count.
 struct alignas(32) FlatBox {
   float at[8];
 
@@ -30,18 +36,24 @@ struct alignas(32) FlatBox {
   Box box() const { return {{at[0], at[1], at[2]}, {-at[4], -at[5], -at[6]}}; }
 };
 
-// A triangle, or where a spatial split cut it a part, while it is sorted into the hierarchy.
+// A triangle, or a part of one that spatial splits cut, while it is sorted into the hierarchy. It
+// is a FlatBox that uses lanes 3 and 7.
 struct alignas(32) SahReference {
   float lower[3];
   uint32_t primitive;
   float minus_upper[3];
-  uint32_t unused;
+  uint32_t is_cut;  // 1: a part of the triangle, 0: all of it
 
-  static SahReference of(const Box& box, uint32_t primitive) {
+  static SahReference whole(const Box& box, uint32_t primitive) {
     return {{box.lower[0], box.lower[1], box.lower[2]},
             primitive,
             {-box.upper[0], -box.upper[1], -box.upper[2]},
             0};
+  }
+  static SahReference part(const Box& box, uint32_t primitive) {
+    SahReference reference = whole(box, primitive);
+    reference.is_cut = 1;
+    return reference;
   }
   Box box() const {
     return {{lower[0], lower[1], lower[2]}, {-minus_upper[0], -minus_upper[1], -minus_upper[2]}};
@@ -49,7 +61,7 @@ struct alignas(32) SahReference {
 };
 static_assert(sizeof(SahReference) == sizeof(FlatBox));
 
-// The least and the greatest of the references' centres, doubled. Lane 3 is zero.
+// The least and the greatest coordinates of the references' centres, doubled. Lane 3 is zero.
 struct alignas(16) Centres {
   float lower[4];
   float upper[4];
@@ -75,28 +87,28 @@ struct SahExtent {
   }
 };
 
-// A node under way.
+// A node that is not split yet.
 struct SahNode {
   SahExtent extent;
-  uint64_t begin;  // of its references
-  uint64_t count;
-  uint64_t room;  // for more of them, behind these
+  uint64_t begin;  // its first reference
+  uint64_t count;  // of its references
+  uint64_t room;   // behind them, for the references that spatial splits add
 };
 
 inline constexpr uint32_t kMaxBins = 32;
 inline constexpr uint32_t kSpatialBins = 16;
 inline constexpr uint32_t kLengthBins = 16;
 
-// Below it halves are taken as they come, so that no depth passes the file's limit: coincident
-// centres and rows of ever smaller triangles would.
+// From this depth on nodes are halved without a search, so that no depth passes the file's limit:
+// coincident centres and rows of ever smaller triangles would.
 inline constexpr uint32_t kDeepestSplit = kMaxDepth - 32;
 
-// What references are told apart by.
+// What a split tells references apart by.
 enum class SplitKind : uint8_t {
-  kCentres,  // of their boxes
-  kLengths,  // of their boxes' longest sides: one bin for about each factor of the root of two,
+  kCentres,  // the centres of their boxes
+  kLengths,  // the longest sides of their boxes: one bin for about each factor of the root of two,
              // along the first axis
-  kPlanes,   // each is in all bins that it meets, and is cut: a spatial split
+  kPlanes,   // a plane that cuts them: each is in all bins that it meets (a spatial split)
 };
 inline constexpr SplitKind kSplitKinds[] = {SplitKind::kCentres, SplitKind::kLengths,
                                             SplitKind::kPlanes};
@@ -106,51 +118,53 @@ inline constexpr SplitKind kSplitKinds[] = {SplitKind::kCentres, SplitKind::kLen
 struct alignas(16) Binning {
   float base[4];   // by lengths, the longest
   float scale[4];  // zero along an axis without extent
-  uint32_t count;  // none: not worth a look
+  uint32_t count;  // zero: no split of this kind is worth a search
   SplitKind kind;
 };
 
 struct alignas(64) Bins {
   FlatBox box[3][kMaxBins];
-  uint32_t count[3][kMaxBins];  // references that begin there
-  uint32_t ends[3][kMaxBins];   // by planes: that end there
+  uint32_t count[3][kMaxBins];  // references that begin in the bin
+  uint32_t ends[3][kMaxBins];   // references that end in the bin; for planes only
 };
 
 struct Split {
   float cost = std::numeric_limits<float>::infinity();  // of both sides, over the node's area
-  int axis = -1;                                        // none
+  int axis = -1;                                        // -1: there is no split
   uint32_t bin = 0;                                     // the right side's first
-  uint64_t count[2] = {0, 0};                           // of the sides, by the bins
-  uint64_t placed[2] = {0, 0};                          // less: some are not cut
-  FlatBox box[2];                                       // of the sides, by the bins
+  uint64_t count[2] = {0, 0};   // references of either side, as the bins count them
+  uint64_t placed[2] = {0, 0};  // the same once some are left whole: no more than `count`
+  FlatBox box[2];               // the boxes of either side, as the bins have them
   Binning binning;
 };
 
-// What spatial splits cut, and where.
+// What spatial splits need: the triangles, the frame whose axes planes lie across, and when to try.
 struct Cutting {
   const Mesh& mesh;
   const Frame& frame;
-  double least_overlap;  // half the area that both sides of a split have in common
+  double least_overlap;  // half the area that the sides of another split must have in common
 };
 
 // A part of the hierarchy that one thread builds.
 struct SahSubtree {
   SahNode node;
-  uint32_t depth;                    // nodes above it
-  SahReference* at[2];               // both arrays, the references in the first
-  uint32_t* primitives;              // what is in leaves, where their references begin
-  Box* boxes;                        // likewise; none without spatial splits
-  const Cutting* cutting = nullptr;  // likewise
+  uint32_t depth;       // nodes above it
+  SahReference* at[2];  // the two arrays; the first holds the references
+  // Receive the references in leaves, as struct References has them, each leaf's where its
+  // references begin in the arrays.
+  uint32_t* primitives;
+  Box* cuts;                         // null without spatial splits
+  const Cutting* cutting = nullptr;  // null without spatial splits
   TopologyNode root;
   std::pmr::vector<NodePair> pairs;
 
   SahSubtree(const SahNode& node, std::pmr::memory_resource& memory) : node(node), pairs(&memory) {}
 };
 
-// One set a sobb_isa; all return the same bits.
+// One set per sobb_isa; all return the same bits.
 struct SahKernels {
   void (*clear)(Bins& bins, const Binning& binning);
-  // `cutting` is for planes.
+  // `cutting` is for planes; other kinds take null.
   void (*bin)(const SahReference* references, uint64_t count, const Binning& binning,
               const Cutting* cutting, Bins& bins);
   void (*merge)(const Bins& from, const Binning& binning, Bins& into);
@@ -160,7 +174,8 @@ struct SahKernels {
   // How many references go to either side of a split by planes.
   void (*count_parts)(const SahReference* references, uint64_t count, const SahNode& node,
                       const Split& split, const Cutting& cutting, uint64_t placed[2]);
-  // Stable: to `left` and `right` in the order they come in. Adds to both sides' extents.
+  // Writes the references to `left` and `right` in the order they come in, and grows the extents of
+  // both sides.
   void (*partition)(const SahReference* references, uint64_t count, const SahNode& node,
                     const Split& split, const Cutting* cutting, SahReference* left,
                     SahReference* right, SahExtent side[2]);
@@ -171,15 +186,16 @@ struct SahKernels {
 
 const SahKernels& sah_kernels(sobb_isa isa);
 
-// Of a node, to find a split better than the best so far. `cutting` may be null.
+// The binning by which to look for a split of a node that is better than its best so far. `cutting`
+// may be null.
 Binning make_binning(SplitKind kind, const SahNode& node, const Split& best,
                      const Cutting* cutting);
 
 // Whether a split should replace the best so far, of another kind.
 bool is_better(const SahNode& node, const Split& split, const Split& best);
 
-// The sides of a split, of so many references, as nodes without extent: next to each other, the
-// node's room shared out by their counts.
+// Makes the sides of a split as nodes without extent, of `count` references each: next to each
+// other, with the node's room shared out by their counts.
 void place_sides(const SahNode& node, const uint64_t count[2], SahNode side[2]);
 
 }  // namespace sobb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Splits by lengths, and what works for every kind of split. Included once for each Highway target.
+// Splits by lengths, and the functions that take any kind of split.
 #if defined(SOBB_BUILDER_SAH_SAH_KINDS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BUILDER_SAH_SAH_KINDS_INL_H
 #undef SOBB_BUILDER_SAH_SAH_KINDS_INL_H
@@ -16,8 +16,8 @@ namespace sobb {
 namespace HWY_NAMESPACE {
 namespace {
 
-// Steps of about the root of two from the longest box's longest side down to a reference's: the
-// exponent and first bit of a float are such steps.
+// Counts the steps of about the root of two from the longest side of all boxes down to that of a
+// reference's box: a float's exponent and first bit count such steps.
 HWY_INLINE uint32_t length_bin(const SahReference& reference, const Binning& binning) {
   float longest = 0;
   for (int k = 0; k < 3; ++k) {
@@ -35,7 +35,7 @@ void bin_lengths(const SahReference* references, uint64_t count, const Binning& 
     ++bins.count[0][at];
     grow(bins.box[0][at].at, references[i].lower);
   }
-  // Along the other axes all are in one.
+  // Along the other axes all are in one bin.
   for (int axis = 1; axis < 3; ++axis) bins.count[axis][0] += static_cast<uint32_t>(count);
 }
 

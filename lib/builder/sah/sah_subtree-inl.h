@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A subtree, by one thread, depth first. Included once for each Highway target.
+// One thread builds a subtree, depth first.
 #if defined(SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H
 #undef SOBB_BUILDER_SAH_SAH_SUBTREE_INL_H
@@ -56,8 +56,8 @@ class SubtreeBuilder {
     return kLeafBlockCost * blocks(count) <= kBinaryStepCost + kLeafBlockCost * split_cost;
   }
 
-  // Whether one block is cheaper than any split, which need not be looked for then: a side is no
-  // smaller than its largest reference, unless that may be cut.
+  // Returns whether one block is cheaper than any split can be, so that none need be looked for: a
+  // side is no smaller than its largest reference, unless that may be cut.
   bool is_one_block(const SahNode& node, int from) const {
     if (blocks(node.count) > 1 || subtree_.cutting != nullptr) return false;
     const Areas area(node.extent.box);
@@ -97,7 +97,7 @@ class SubtreeBuilder {
     for (int k = 0; k < 2; ++k) child[k].extent = side[k];
   }
 
-  // As they come: where nothing tells the references apart.
+  // Halves the references in the order they come in, where nothing tells them apart.
   void halve(const SahNode& node, int from, SahNode child[2]) const {
     const uint64_t half = node.count / 2;
     const SahReference* references = subtree_.at[from];
@@ -108,19 +108,19 @@ class SubtreeBuilder {
     }
   }
 
-  // Parts of one triangle, next to each other, become one again.
+  // Writes a leaf's references. Parts of one triangle, which lie next to each other, become one.
   void finish(const SahNode& node, int from, TopologyNode& leaf) const {
     const SahReference* references = subtree_.at[from] + node.begin;
     uint32_t* primitives = subtree_.primitives + node.begin;
-    Box* boxes = subtree_.boxes == nullptr ? nullptr : subtree_.boxes + node.begin;
+    Box* cuts = subtree_.cuts == nullptr ? nullptr : subtree_.cuts + node.begin;
     uint32_t kept = 0;
     for (uint64_t i = 0; i < node.count; ++i) {
       if (kept > 0 && primitives[kept - 1] == references[i].primitive) {
-        boxes[kept - 1].grow(references[i].box());
+        cuts[kept - 1].grow(references[i].box());
         continue;
       }
       primitives[kept] = references[i].primitive;
-      if (boxes != nullptr) boxes[kept] = references[i].box();
+      if (cuts != nullptr) cuts[kept] = references[i].is_cut != 0 ? references[i].box() : kUncut;
       ++kept;
     }
     leaf.first = static_cast<uint32_t>(node.begin);

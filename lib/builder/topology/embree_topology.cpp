@@ -44,7 +44,8 @@ RTCBuildPrimitive to_primitive(const Box& box, uint32_t index) {
           box.upper[0], box.upper[1], box.upper[2], index};
 }
 
-// What Embree's callbacks see. They run on several threads at once and may not throw.
+// One build by Embree, as its callbacks see it. They run on several threads at once and may not
+// throw.
 struct EmbreeBuilder {
   const Mesh& mesh;
   const Frame frame;
@@ -53,7 +54,7 @@ struct EmbreeBuilder {
   double progress_end;
   RTCDevice device = nullptr;
   RTCBVH bvh = nullptr;
-  std::atomic<bool> limit_met{false};  // the memory limit refused Embree something
+  std::atomic<bool> limit_met{false};  // the memory limit refused Embree an allocation
   std::atomic<bool> starved{false};    // a node or leaf got no memory, and is missing
 
   EmbreeBuilder(const Mesh& mesh, const Frame& frame, Memory& memory, Progress& progress,
@@ -66,8 +67,8 @@ struct EmbreeBuilder {
   EmbreeBuilder(const EmbreeBuilder&) = delete;
   EmbreeBuilder& operator=(const EmbreeBuilder&) = delete;
 
-  // For a node or leaf; null without memory. Embree goes on with such a node, so that all callbacks
-  // see it, until on_progress() stops the build.
+  // Allocates a node or leaf; null without memory. Embree goes on with a null node, which all
+  // callbacks must bear, until on_progress() stops the build.
   void* allocate(RTCThreadLocalAllocator allocator, size_t size, size_t alignment) {
     void* at = rtcThreadLocalAlloc(allocator, size, alignment);
     if (at == nullptr) starved = true;
@@ -131,7 +132,7 @@ struct EmbreeBuilder {
     return false;
   }
 
-  // Turns Embree's failure into ours.
+  // Throws the library's error for Embree's failure.
   [[noreturn]] void fail_build() {
     if (limit_met) {
       fail(SOBB_ERROR_MEMORY_LIMIT, "memory limit: the topology builder needs more than %llu bytes",

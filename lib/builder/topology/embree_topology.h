@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The binary hierarchy by Embree's builder, in Morton order.
+// Low quality: Embree's builder sorts the triangles in Morton order and halves them.
 #pragma once
 
 #include "builder/topology/topology.h"
 
 namespace sobb {
 
-// As Topology has it.
+// Progress and errors as Topology states.
 BinaryNodes embree_topology(const Mesh& mesh, const Scheduler& scheduler, Memory& memory,
                             Progress& progress, double progress_end, const Frame& frame);
 

@@ -13,51 +13,54 @@ namespace sobb {
 namespace {
 
 constexpr uint64_t kGrain = 1 << 14;
-// Room for the references that spatial splits add, as a part of the triangles.
+// Room for the references that spatial splits add, per triangle.
 constexpr double kSplitRoom = 0.25;
 
-// More of either lowers the areas further, but rays gain no more than the build loses.
+// More rounds or a larger share would lower the areas further, but rays would gain no more than the
+// build would lose.
 constexpr ReinsertionEffort kMediumEffort = {3, 0.05};
 constexpr ReinsertionEffort kHighEffort = {3, 0.2};
-// Spatial splits are kept where they cost so much less. (Reinsertion gains a little more without.)
+// The hierarchy with spatial splits is kept if its cost is below this share of the other's.
+// (Reinsertion gains a little more on the one without.)
 constexpr double kSplitsAdvantage = 0.98;
 
-// Of the progress.
-struct Part {
+// A stage's share of the progress.
+struct ProgressShare {
   double begin;
   double end;
 };
 
 BinaryNodes own_topology(const Mesh& mesh, bool splits, const Scheduler& scheduler, Memory& memory,
-                         Progress& progress, Part part, const Frame& frame, sobb_isa isa) {
+                         Progress& progress, ProgressShare share, const Frame& frame,
+                         sobb_isa isa) {
   const uint64_t count = mesh.triangle_count();
   const uint64_t room = splits ? static_cast<uint64_t>(static_cast<double>(count) * kSplitRoom) : 0;
   Array<SahReference> references(count + room, memory);
   Array<SahReference> other(count + room, memory);
   scheduler.for_ranges(count, kGrain, [&](uint64_t begin, uint64_t end) {
     for (uint64_t i = begin; i < end; ++i) {
-      references[i] = SahReference::of(box_of(mesh, i, frame), static_cast<uint32_t>(i));
+      references[i] = SahReference::whole(box_of(mesh, i, frame), static_cast<uint32_t>(i));
     }
   });
   BinaryNodes nodes;
   nodes.primitives = Array<uint32_t>(count + room, memory);
-  if (splits) nodes.boxes = Array<Box>(count + room, memory);
+  if (splits) nodes.cuts = Array<Box>(count + room, memory);
   const SahBuild build = {{references.data(), other.data()},
                           count,
                           room,
                           nodes.primitives.data(),
-                          nodes.boxes.data(),
+                          nodes.cuts.data(),
                           mesh,
                           frame};
   TopologyBuilder builder(build, sah_kernels(resolve_isa(isa)), scheduler, memory);
-  builder.build(progress, part.begin, part.end);
+  builder.build(progress, share.begin, share.end);
   references = {};
   other = {};
   nodes.pairs = builder.collect(nodes.root);
   return nodes;
 }
 
-// By the surface area heuristic, over half the root's area.
+// The cost by the surface area heuristic, times half the root's area.
 double cost_of(const BinaryNodes& nodes) {
   double cost = 0;
   for (const NodePair& pair : std::span<const NodePair>(nodes.pairs)) {
@@ -70,8 +73,9 @@ double cost_of(const BinaryNodes& nodes) {
   return cost;
 }
 
-// High quality is the better of two. Spatial splits gain much in some scenes; in others, such as
-// cities, what they add in references costs more than they save, which only shows in the end.
+// High quality is the better of two hierarchies, one of them with spatial splits. Splits gain much
+// in some scenes; in others, such as cities, the references that they add cost more than they save,
+// which only shows in the end.
 BinaryNodes topology_of(sobb_quality quality, const Mesh& mesh, const Scheduler& scheduler,
                         Memory& memory, Progress& progress, double progress_end, const Frame& frame,
                         sobb_isa isa) {

@@ -8,15 +8,15 @@
 namespace sobb {
 namespace {
 
-constexpr uint64_t kBlock = 1 << 14;  // references
-// A subtree has at most this part of the references, or this many: enough subtrees to share among
-// threads, each small enough for a cache.
+constexpr uint64_t kChunk = 1 << 14;  // references of one task
+// A subtree has at most 1/kSubtreeParts of the references, or kSubtreeReferences if that is more:
+// enough subtrees to share among threads, each small enough for a cache.
 constexpr uint64_t kSubtreeParts = 256;
 constexpr uint64_t kSubtreeReferences = 4096;
-// The part of the progress in which the top is made, by measured time.
+// The share of the progress that making the top takes, by measured time.
 constexpr double kTopShare = 0.4;
-// The part of the root's area that the sides of a split must have in common before a spatial one is
-// tried, as in Stich et al.
+// A spatial split is tried only where the sides of the best other split have this share of the
+// root's area in common, as in Stich et al.
 constexpr double kLeastOverlap = 1e-5;
 
 }  // namespace
@@ -27,24 +27,24 @@ void TopologyBuilder::build(Progress& progress, double progress_begin, double pr
   Level level({{bound_all(), kNone, 0}}, &memory_);
   cutting_.least_overlap = level[0].node.extent.box.box().half_area() * kLeastOverlap;
   for (uint32_t depth = 0; !level.empty(); ++depth) {
-    // A root's children are half as large, and so on: so many levels are nearly all.
+    // Each level halves the nodes: ten levels do nearly all of the work.
     progress.check(progress_begin, progress_of_top, std::min(1.0, depth / 10.0));
     const int from = static_cast<int>(depth % 2);
     Level large(&memory_);
-    for (const Open& open : level) {
-      if (open.node.count <= limit || depth >= kDeepestSplit) {
-        add_subtree(open, depth, from);
+    for (const TopNode& top : level) {
+      if (top.node.count <= limit || depth >= kDeepestSplit) {
+        add_subtree(top, depth, from);
       } else {
-        large.push_back(open);
+        large.push_back(top);
       }
     }
     split_level(large, from);
     level.clear();
-    for (const Open& open : large) {
-      if (open.split.axis < 0) {
-        add_subtree(open, depth, from);
+    for (const TopNode& top : large) {
+      if (top.split.axis < 0) {
+        add_subtree(top, depth, from);
       } else {
-        add_children(open, level);
+        add_children(top, level);
       }
     }
   }
@@ -58,9 +58,9 @@ void TopologyBuilder::build(Progress& progress, double progress_begin, double pr
 }
 
 SahNode TopologyBuilder::bound_all() const {
-  std::pmr::vector<SahExtent> parts((build_.count + kBlock - 1) / kBlock, &memory_);
-  scheduler_.for_ranges(build_.count, kBlock, [&](uint64_t begin, uint64_t end) {
-    SahExtent& part = parts[begin / kBlock];
+  std::pmr::vector<SahExtent> parts((build_.count + kChunk - 1) / kChunk, &memory_);
+  scheduler_.for_ranges(build_.count, kChunk, [&](uint64_t begin, uint64_t end) {
+    SahExtent& part = parts[begin / kChunk];
     part = SahExtent::nothing();
     kernels_.bound(build_.references[0] + begin, end - begin, part);
   });
@@ -69,147 +69,148 @@ SahNode TopologyBuilder::bound_all() const {
   return node;
 }
 
-// Moves the references of all nodes of a level to the other array, for those that have a split.
+// Looks for the best split of every node of a level, and moves the references of nodes that have
+// one to the other array, sorted by side.
 void TopologyBuilder::split_level(Level& level, int from) const {
-  Blocks blocks(&memory_);
-  for (Open& open : level) {
-    open.first_block = blocks.size();
-    open.block_count = (open.node.count + kBlock - 1) / kBlock;
-    for (uint64_t i = 0; i < open.block_count; ++i) {
-      blocks.push_back({static_cast<uint32_t>(&open - level.data()), open.node.begin + i * kBlock,
-                        std::min(kBlock, open.node.count - i * kBlock)});
+  Chunks chunks(&memory_);
+  for (TopNode& top : level) {
+    top.first_chunk = chunks.size();
+    top.chunk_count = (top.node.count + kChunk - 1) / kChunk;
+    for (uint64_t i = 0; i < top.chunk_count; ++i) {
+      chunks.push_back({static_cast<uint32_t>(&top - level.data()), top.node.begin + i * kChunk,
+                        std::min(kChunk, top.node.count - i * kChunk)});
     }
   }
-  for (const SplitKind kind : kSplitKinds) try_splits(kind, level, blocks, from);
-  for (Open& open : level) {
-    if (open.split.axis >= 0) place(open, &blocks[open.first_block], 1 - from);
+  for (const SplitKind kind : kSplitKinds) try_splits(kind, level, chunks, from);
+  for (TopNode& top : level) {
+    if (top.split.axis >= 0) place_references(top, &chunks[top.first_chunk], 1 - from);
   }
-  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
-    Block& block = blocks[i];
-    const Open& open = level[block.open];
-    if (open.split.axis < 0) return;
-    kernels_.partition(build_.references[from] + block.begin, block.count, open.node, open.split,
-                       cutting(), block.to[0], block.to[1], block.extent);
+  scheduler_.for_each(chunks.size(), [&](uint64_t i) {
+    ReferenceChunk& chunk = chunks[i];
+    const TopNode& top = level[chunk.node];
+    if (top.split.axis < 0) return;
+    kernels_.partition(build_.references[from] + chunk.begin, chunk.count, top.node, top.split,
+                       cutting(), chunk.to[0], chunk.to[1], chunk.extent);
   });
-  for (Open& open : level) {
+  for (TopNode& top : level) {
     for (int side = 0; side < 2; ++side) {
-      for (uint64_t i = 0; i < open.block_count; ++i) {
-        open.child[side].extent.grow(blocks[open.first_block + i].extent[side]);
+      for (uint64_t i = 0; i < top.chunk_count; ++i) {
+        top.child[side].extent.grow(chunks[top.first_chunk + i].extent[side]);
       }
     }
   }
 }
 
-// Looks for a better split of each node, of another kind.
-void TopologyBuilder::try_splits(SplitKind kind, Level& level, Blocks& blocks, int from) const {
+// Looks for a split of one kind that is better than each node's best so far.
+void TopologyBuilder::try_splits(SplitKind kind, Level& level, Chunks& chunks, int from) const {
   bool any = false;
-  for (Open& open : level) {
-    open.trial = {};
-    open.trial.binning = make_binning(kind, open.node, open.split, cutting());
-    any |= open.trial.binning.count > 0;
+  for (TopNode& top : level) {
+    top.trial = {};
+    top.trial.binning = make_binning(kind, top.node, top.split, cutting());
+    any |= top.trial.binning.count > 0;
   }
   if (!any) return;
-  Array<Bins> bins(blocks.size(), memory_);
-  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
-    const Binning& binning = level[blocks[i].open].trial.binning;
+  Array<Bins> bins(chunks.size(), memory_);
+  scheduler_.for_each(chunks.size(), [&](uint64_t i) {
+    const Binning& binning = level[chunks[i].node].trial.binning;
     if (binning.count == 0) return;
     kernels_.clear(bins[i], binning);
-    kernels_.bin(build_.references[from] + blocks[i].begin, blocks[i].count, binning, cutting(),
+    kernels_.bin(build_.references[from] + chunks[i].begin, chunks[i].count, binning, cutting(),
                  bins[i]);
   });
   scheduler_.for_each(level.size(), [&](uint64_t i) {
-    if (level[i].trial.binning.count > 0) try_split(level[i], &bins[level[i].first_block]);
+    if (level[i].trial.binning.count > 0) try_split(level[i], &bins[level[i].first_chunk]);
   });
-  scheduler_.for_each(blocks.size(), [&](uint64_t i) {
-    const Open& open = level[blocks[i].open];
-    if (open.trial.axis >= 0) count_sides(open, bins[i], blocks[i], from);
+  scheduler_.for_each(chunks.size(), [&](uint64_t i) {
+    const TopNode& top = level[chunks[i].node];
+    if (top.trial.axis >= 0) count_sides(top, bins[i], chunks[i], from);
   });
-  for (Open& open : level) {
-    if (open.trial.axis >= 0) adopt_trial(open, &blocks[open.first_block]);
+  for (TopNode& top : level) {
+    if (top.trial.axis >= 0) adopt_trial(top, &chunks[top.first_chunk]);
   }
 }
 
-void TopologyBuilder::try_split(Open& open, const Bins* bins) const {
-  const Binning binning = open.trial.binning;
+void TopologyBuilder::try_split(TopNode& top, const Bins* bins) const {
+  const Binning binning = top.trial.binning;
   Bins all;
   kernels_.clear(all, binning);
-  for (uint64_t i = 0; i < open.block_count; ++i) kernels_.merge(bins[i], binning, all);
-  open.trial = kernels_.find_split(open.node, all, binning);
-  if (!is_better(open.node, open.trial, open.split)) open.trial.axis = -1;
+  for (uint64_t i = 0; i < top.chunk_count; ++i) kernels_.merge(bins[i], binning, all);
+  top.trial = kernels_.find_split(top.node, all, binning);
+  if (!is_better(top.node, top.trial, top.split)) top.trial.axis = -1;
 }
 
-void TopologyBuilder::count_sides(const Open& open, const Bins& bins, Block& block,
+void TopologyBuilder::count_sides(const TopNode& top, const Bins& bins, ReferenceChunk& chunk,
                                   int from) const {
-  if (open.trial.binning.kind == SplitKind::kPlanes) {
-    kernels_.count_parts(build_.references[from] + block.begin, block.count, open.node, open.trial,
-                         cutting_, block.trial);
+  if (top.trial.binning.kind == SplitKind::kPlanes) {
+    kernels_.count_parts(build_.references[from] + chunk.begin, chunk.count, top.node, top.trial,
+                         cutting_, chunk.trial);
     return;
   }
-  const uint32_t* count = bins.count[open.trial.axis];
-  block.trial[0] = std::accumulate(count, count + open.trial.bin, uint64_t{0});
-  block.trial[1] = block.count - block.trial[0];
+  const uint32_t* count = bins.count[top.trial.axis];
+  chunk.trial[0] = std::accumulate(count, count + top.trial.bin, uint64_t{0});
+  chunk.trial[1] = chunk.count - chunk.trial[0];
 }
 
-void TopologyBuilder::adopt_trial(Open& open, Block* blocks) {
-  uint64_t* placed = open.trial.placed;
+void TopologyBuilder::adopt_trial(TopNode& top, ReferenceChunk* chunks) {
+  uint64_t* placed = top.trial.placed;
   std::fill_n(placed, 2, 0);
-  for (uint64_t i = 0; i < open.block_count; ++i) {
-    for (int side = 0; side < 2; ++side) placed[side] += blocks[i].trial[side];
+  for (uint64_t i = 0; i < top.chunk_count; ++i) {
+    for (int side = 0; side < 2; ++side) placed[side] += chunks[i].trial[side];
   }
-  if (placed[0] == 0 || placed[1] == 0) return;  // in the end none was cut
-  open.split = open.trial;
-  for (uint64_t i = 0; i < open.block_count; ++i) {
-    std::copy_n(blocks[i].trial, 2, blocks[i].placed);
+  if (placed[0] == 0 || placed[1] == 0) return;  // no reference is on that side after all
+  top.split = top.trial;
+  for (uint64_t i = 0; i < top.chunk_count; ++i) {
+    std::copy_n(chunks[i].trial, 2, chunks[i].placed);
   }
 }
 
-// The children's references, and where those of each block go.
-void TopologyBuilder::place(Open& open, Block* blocks, int to) const {
-  place_sides(open.node, open.split.placed, open.child);
+// Places the children's references, and says where those of each chunk go.
+void TopologyBuilder::place_references(TopNode& top, ReferenceChunk* chunks, int to) const {
+  place_sides(top.node, top.split.placed, top.child);
   for (int side = 0; side < 2; ++side) {
-    SahReference* at = build_.references[to] + open.child[side].begin;
-    for (uint64_t i = 0; i < open.block_count; ++i) {
-      blocks[i].to[side] = at;
-      at += blocks[i].placed[side];
+    SahReference* at = build_.references[to] + top.child[side].begin;
+    for (uint64_t i = 0; i < top.chunk_count; ++i) {
+      chunks[i].to[side] = at;
+      at += chunks[i].placed[side];
     }
   }
 }
 
-void TopologyBuilder::add_subtree(const Open& open, uint32_t depth, int from) {
-  if (open.parent != kNone) {
-    top_[open.parent].subtree[open.side] = static_cast<uint32_t>(subtrees_.size());
+void TopologyBuilder::add_subtree(const TopNode& top, uint32_t depth, int from) {
+  if (top.parent != kNone) {
+    top_[top.parent].subtree[top.side] = static_cast<uint32_t>(subtrees_.size());
   }
-  SahSubtree& subtree = subtrees_.emplace_back(open.node, memory_);
+  SahSubtree& subtree = subtrees_.emplace_back(top.node, memory_);
   subtree.depth = depth;
   subtree.at[0] = build_.references[from];
   subtree.at[1] = build_.references[1 - from];
   subtree.primitives = build_.primitives;
-  subtree.boxes = build_.boxes;
+  subtree.cuts = build_.cuts;
   subtree.cutting = cutting();
 }
 
-void TopologyBuilder::add_children(const Open& open, Level& next) {
+void TopologyBuilder::add_children(const TopNode& top, Level& next) {
   const auto pair = static_cast<uint32_t>(top_.size());
-  // Counts are known once all is done.
-  TopologyNode& made = open.parent == kNone ? root_ : top_[open.parent].nodes.child[open.side];
-  made.box = open.node.extent.box.box();
+  // place_pair() fills in the count, once the subtrees are made.
+  TopologyNode& made = top.parent == kNone ? root_ : top_[top.parent].nodes.child[top.side];
+  made.box = top.node.extent.box.box();
   made.first = pair;
   made.is_leaf = false;
   top_.emplace_back();
-  for (uint32_t side = 0; side < 2; ++side) next.push_back({open.child[side], pair, side});
+  for (uint32_t side = 0; side < 2; ++side) next.push_back({top.child[side], pair, side});
 }
 
-// Lays out a pair of the top from `at` on, and what is below it. Returns the place after.
-uint64_t TopologyBuilder::place(uint32_t top, uint64_t at, Array<NodePair>& pairs,
-                                std::pmr::vector<uint64_t>& places) const {
+// Lays out a pair of the top and all that is below it from `at` on. Returns the place after them.
+uint64_t TopologyBuilder::place_pair(uint32_t top_pair, uint64_t at, Array<NodePair>& pairs,
+                                     std::pmr::vector<uint64_t>& places) const {
   const uint64_t own = at++;
-  NodePair pair = top_[top].nodes;
+  NodePair pair = top_[top_pair].nodes;
   for (int side = 0; side < 2; ++side) {
-    const uint32_t subtree = top_[top].subtree[side];
+    const uint32_t subtree = top_[top_pair].subtree[side];
     if (subtree == kNone) {
       const uint32_t below = pair.child[side].first;
       pair.child[side].first = static_cast<uint32_t>(at);
-      at = place(below, at, pairs, places);
+      at = place_pair(below, at, pairs, places);
       pair.child[side].count = pairs[pair.child[side].first].count();
     } else {
       places[subtree] = at;
@@ -230,7 +231,7 @@ Array<NodePair> TopologyBuilder::collect(TopologyNode& root) const {
   if (top_.empty()) {
     root = subtrees_[0].root;
   } else {
-    place(0, 0, pairs, places);
+    place_pair(0, 0, pairs, places);
     root = root_;
     root.count = pairs[0].count();
   }

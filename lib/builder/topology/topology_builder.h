@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The topology from the top down: large nodes by parallel loops over their references, a level at a
-// time; then the subtrees below them, each by one thread.
+// Builds a topology from the top down: large nodes by parallel loops over their references, one
+// level at a time; then the subtrees below them, each by one thread.
 #pragma once
 
 #include <memory_resource>
@@ -9,17 +9,19 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/scheduler.h"
+#include "builder/array.h"
 #include "builder/sah/sah_kernels.h"
 
 namespace sobb {
 
-// What a topology is made from and into.
+// What a topology is made from, and where its leaves' references go.
 struct SahBuild {
-  SahReference* references[2];  // two arrays with room for all, which are in the first
+  SahReference* references[2];  // two arrays of count + room; the first holds the references
   uint64_t count;
-  uint64_t room;         // for more of them
-  uint32_t* primitives;  // receives what is in leaves; room likewise
-  Box* boxes = nullptr;  // likewise; none: no spatial splits
+  uint64_t room;  // for the references that spatial splits add
+  // Arrays of count + room that receive the references in leaves, as struct References has them.
+  uint32_t* primitives;
+  Box* cuts;  // null: no spatial splits
   const Mesh& mesh;
   const Frame& frame;
 };
@@ -36,41 +38,41 @@ class TopologyBuilder {
         top_(&memory),
         subtrees_(&memory) {}
 
-  // Makes all nodes; the references are spent.
+  // Makes all nodes, and overwrites the references.
   void build(Progress& progress, double progress_begin, double progress_end);
 
-  // Collects them, depth first.
+  // Collects the nodes, depth first.
   Array<NodePair> collect(TopologyNode& root) const;
 
  private:
   static constexpr uint32_t kNone = 0xFFFFFFFF;
 
-  // A node of the top under way, the child of another.
-  struct Open {
+  // A node of the top that is still to be split.
+  struct TopNode {
     SahNode node;
-    uint32_t parent;  // in top_; kNone: the root
+    uint32_t parent;  // pair of top_ whose child the node is; kNone for the root
     uint32_t side;
     Split split{};       // the best so far
     Split trial{};       // one that may be better
-    SahNode child[2]{};  // of the best
-    uint64_t first_block = 0;
-    uint64_t block_count = 0;
+    SahNode child[2]{};  // the sides of `split`
+    uint64_t first_chunk = 0;
+    uint64_t chunk_count = 0;
   };
-  // References of such a node that one task bins and moves.
-  struct Block {
-    uint32_t open;
+  // References of a top node that one task bins and moves.
+  struct ReferenceChunk {
+    uint32_t node;  // in its level
     uint64_t begin;
     uint64_t count;
-    uint64_t placed[2] = {0, 0};  // how many go to either side
-    uint64_t trial[2] = {0, 0};   // likewise, by the trial
-    SahReference* to[2] = {};     // where they go
-    // What they are there.
+    uint64_t placed[2] = {0, 0};  // references that the node's split puts on either side
+    uint64_t trial[2] = {0, 0};   // the same of the node's trial
+    SahReference* to[2] = {};     // where the references of either side go
+    // The extents of the references that go to either side.
     SahExtent extent[2] = {SahExtent::nothing(), SahExtent::nothing()};
   };
-  using Level = std::pmr::vector<Open>;
-  using Blocks = std::pmr::vector<Block>;
+  using Level = std::pmr::vector<TopNode>;
+  using Chunks = std::pmr::vector<ReferenceChunk>;
 
-  // Two nodes of the top, or where subtrees hang.
+  // Two nodes of the top, each of which may be a subtree's root instead.
   struct TopPair {
     NodePair nodes;
     uint32_t subtree[2] = {kNone, kNone};
@@ -78,16 +80,16 @@ class TopologyBuilder {
 
   SahNode bound_all() const;
   void split_level(Level& level, int from) const;
-  void try_splits(SplitKind kind, Level& level, Blocks& blocks, int from) const;
-  void try_split(Open& open, const Bins* bins) const;
-  void count_sides(const Open& open, const Bins& bins, Block& block, int from) const;
-  static void adopt_trial(Open& open, Block* blocks);
-  void place(Open& open, Block* blocks, int to) const;
-  const Cutting* cutting() const { return build_.boxes == nullptr ? nullptr : &cutting_; }
-  void add_subtree(const Open& open, uint32_t depth, int from);
-  void add_children(const Open& open, Level& next);
-  uint64_t place(uint32_t top, uint64_t at, Array<NodePair>& pairs,
-                 std::pmr::vector<uint64_t>& places) const;
+  void try_splits(SplitKind kind, Level& level, Chunks& chunks, int from) const;
+  void try_split(TopNode& top, const Bins* bins) const;
+  void count_sides(const TopNode& top, const Bins& bins, ReferenceChunk& chunk, int from) const;
+  static void adopt_trial(TopNode& top, ReferenceChunk* chunks);
+  void place_references(TopNode& top, ReferenceChunk* chunks, int to) const;
+  const Cutting* cutting() const { return build_.cuts == nullptr ? nullptr : &cutting_; }
+  void add_subtree(const TopNode& top, uint32_t depth, int from);
+  void add_children(const TopNode& top, Level& next);
+  uint64_t place_pair(uint32_t top_pair, uint64_t at, Array<NodePair>& pairs,
+                      std::pmr::vector<uint64_t>& places) const;
 
   SahBuild build_;
   Cutting cutting_;

@@ -8,7 +8,7 @@
 namespace sobb {
 namespace {
 
-// One past the last pair below a node: pairs lie depth first.
+// Finds the place after the last pair below a node. Pairs lie depth first.
 uint32_t pairs_end(const Topology& topology, const TopologyNode& root) {
   const TopologyNode* node = &root;
   uint32_t end = root.first;
@@ -45,7 +45,7 @@ const LeastCostCut::Costs& LeastCostCut::costs_of(const TopologyNode& node) cons
   return node.is_leaf ? kNothing : costs_[node.first];
 }
 
-// Last to first: children come after their parents.
+// Goes from the last pair to the first, since children come after their parents.
 void LeastCostCut::solve_subtree(const TopologyNode& root) {
   for (uint32_t at = pairs_end(topology_, root); at-- > root.first;) {
     for (const TopologyNode& node : topology_.pairs()[at].child) {
@@ -58,7 +58,7 @@ void LeastCostCut::solve_subtree(const TopologyNode& root) {
 void LeastCostCut::solve(const TopologyNode& node) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const Costs& left = costs_of(topology_.child(node, 0));
-  // C(right, i), infinite for i < 1.
+  // right[kMaxWidth - 1 + i] is C(right, i), infinite for i < 1.
   float right[2 * kMaxWidth];
   std::fill_n(right, kMaxWidth, kInfinity);
   std::copy_n(costs_of(topology_.child(node, 1)).of, kMaxWidth, right + kMaxWidth);
@@ -89,7 +89,7 @@ uint32_t LeastCostCut::children(const TopologyNode& node,
   return count;
 }
 
-// As at most `trees` trees.
+// Appends the roots of a node's subtree as the cheapest forest of at most `trees` trees.
 void LeastCostCut::gather(const TopologyNode& node, uint32_t trees,
                           const TopologyNode* child[kMaxWidth], uint32_t& count) const {
   const Costs& known = costs_of(node);
@@ -101,7 +101,7 @@ void LeastCostCut::gather(const TopologyNode& node, uint32_t trees,
   }
 }
 
-// What is below as at most `trees` trees.
+// Appends the roots of the cheapest forest whose trees a node's two children share.
 void LeastCostCut::share(const TopologyNode& node, uint32_t trees,
                          const TopologyNode* child[kMaxWidth], uint32_t& count) const {
   const TopologyNode& left = topology_.child(node, 0);

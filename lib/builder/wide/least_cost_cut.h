@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which nodes of a binary hierarchy become the children of each wide node: of all choices, one of
-// the least cost by the surface area heuristic.
+// Chooses the nodes of a binary hierarchy that become the children of each wide node: of all
+// choices one of the least cost by the surface area heuristic.
 #pragma once
 
 #include <cstdint>
@@ -9,32 +9,32 @@
 #include "base/scheduler.h"
 #include "builder/array.h"
 #include "builder/topology/topology.h"
-#include "builder/wide/collapse.h"
+#include "builder/wide/wide_topology.h"
 
 namespace sobb {
 
-// By dynamic programming (H. Ylitie et al., "Efficient Incoherent Ray Traversal on GPUs Through
-// Compressed Wide BVHs", 2017). With C(n, i) the cost of what lies below node n as a forest of at
-// most i trees, and D(n, i) that of it shared out among n's children,
+// The choice is made by dynamic programming (H. Ylitie et al., "Efficient Incoherent Ray Traversal
+// on GPUs Through Compressed Wide BVHs", 2017). C(n, i) is the least cost of the subtree of node n
+// as a forest of at most i trees, D(n, i) the same where n itself is no root of the forest, so that
+// n's children share the i trees:
 //   D(n, i) = min over 0 < j < i of C(left, j) + C(right, i - j)
 //   C(n, 1) = area(n) + D(n, W),   C(n, i) = min(C(n, i - 1), D(n, i)).
-// A leaf costs the same in every choice, so nothing. Equal costs go to fewer trees, and to fewer on
-// the left.
+// A leaf costs the same in every choice, so it counts nothing. Of equal costs the one with fewer
+// trees is taken, then the one with fewer trees on the left.
 class LeastCostCut {
  public:
-  // Holds 32 bytes a pair of nodes while it lives. Nodes of at most `subtree_limit` references are
-  // solved in parallel with what is below them; the costs are the same whatever it is.
+  // Holds 32 bytes per pair of nodes. Subtrees of at most `subtree_limit` references are solved in
+  // parallel, each by one thread; the costs do not depend on the limit.
   LeastCostCut(const Topology& topology, uint32_t width, uint64_t subtree_limit,
                const Scheduler& scheduler, std::pmr::memory_resource& memory);
 
-  // The children of the wide node that stands for a binary one, in the binary order; of a root that
-  // is a leaf itself. Returns their number.
+  // Finds the children of the wide node that stands for a binary one, in the binary order, and
+  // returns their number. A root that is a leaf is its own only child.
   uint32_t children(const TopologyNode& node, const TopologyNode* child[kMaxWidth]) const;
 
  private:
-  // C by trees, from one on.
   struct Costs {
-    float of[kMaxWidth];
+    float of[kMaxWidth];  // of[i - 1] is C(n, i)
   };
 
   const Costs& costs_of(const TopologyNode& node) const;
@@ -47,8 +47,8 @@ class LeastCostCut {
 
   const Topology& topology_;
   uint32_t width_;
-  double scale_;        // of areas, so that none overflows
-  Array<Costs> costs_;  // of the nodes whose children the pairs are
+  double scale_;        // makes areas relative to the root's, so that none overflows
+  Array<Costs> costs_;  // costs_[i] are the costs of the parent of pair i
 };
 
 }  // namespace sobb

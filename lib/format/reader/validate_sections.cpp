@@ -77,13 +77,9 @@ const Section& find_section(const Reading& reading, std::span<const Section> sec
   return *std::ranges::find_if(sections, is_it);
 }
 
-// The section's bytes as `count` items; their number is in [least, most].
-struct Items {
-  const std::byte* data;
-  uint64_t count;
-};
-Items find_items(const Reading& reading, std::span<const Section> sections, SectionId id,
-                 const char* what, uint64_t item_size, uint64_t least, uint64_t most) {
+// The section's size is that of [least, most] items.
+void validate_items(const Reading& reading, std::span<const Section> sections, SectionId id,
+                    const char* what, uint64_t item_size, uint64_t least, uint64_t most) {
   const Section& section = find_section(reading, sections, id, what);
   const uint64_t count = section.size / item_size;
   if (section.size % item_size != 0 || count < least || count > most) {
@@ -92,7 +88,6 @@ Items find_items(const Reading& reading, std::span<const Section> sections, Sect
          " times %" PRIu64,
          reading.name, what, section.id, section.size, least, most, item_size);
   }
-  return {reading.bytes.data() + section.offset, count};
 }
 
 void validate_checksums(const Reading& reading, std::span<const Section> sections,
@@ -109,7 +104,7 @@ void validate_checksums(const Reading& reading, std::span<const Section> section
 
 }  // namespace
 
-FileView validate_sections(const Reading& reading, const FileHeader& header) {
+void validate_sections(const Reading& reading, const FileHeader& header) {
   const std::span sections(
       reinterpret_cast<const Section*>(reading.bytes.data() + sizeof(FileHeader)),
       header.section_count);
@@ -117,25 +112,14 @@ FileView validate_sections(const Reading& reading, const FileHeader& header) {
   ProgressStage stage(reading.progress, kReadEnd, kChecksumsEnd, reading.bytes.size());
   validate_gaps(reading, sections, stage);
 
-  const Items directions =
-      find_items(reading, sections, SectionId::kDirections, "direction table", sizeof(Direction),
+  validate_items(reading, sections, SectionId::kDirections, "direction table", sizeof(Direction),
                  header.direction_count, header.direction_count);
-  const Items record =
-      find_items(reading, sections, SectionId::kRecord, "build record", sizeof(BuildRecord), 1, 1);
-  const Items nodes = find_items(reading, sections, SectionId::kNodes, "nodes",
-                                 node_size(header.width), 1, kMaxIndexed);
-  const Items blocks = find_items(reading, sections, SectionId::kBlocks, "triangle blocks",
-                                  sizeof(TriangleBlock), 1, kMaxIndexed);
+  validate_items(reading, sections, SectionId::kRecord, "build record", sizeof(BuildRecord), 1, 1);
+  validate_items(reading, sections, SectionId::kNodes, "nodes", node_size(header.width), 1,
+                 kMaxIndexed);
+  validate_items(reading, sections, SectionId::kBlocks, "triangle blocks", sizeof(TriangleBlock), 1,
+                 kMaxIndexed);
   validate_checksums(reading, sections, stage);
-
-  FileView view;
-  view.header = &header;
-  view.directions = {reinterpret_cast<const Direction*>(directions.data), directions.count};
-  view.nodes = nodes.data;
-  view.node_count = nodes.count;
-  view.blocks = {reinterpret_cast<const TriangleBlock*>(blocks.data), blocks.count};
-  view.record = reinterpret_cast<const BuildRecord*>(record.data);
-  return view;
 }
 
 }  // namespace sobb

@@ -11,7 +11,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "format/writer/file_descriptor.h"
+#include "format/file_descriptor.h"
 #include "format/writer/temporary_file.h"
 #include "format/writer/writer.h"
 

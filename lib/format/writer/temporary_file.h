@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-#include "format/writer/file_descriptor.h"
+#include "format/file_descriptor.h"
 
 namespace sobb {
 

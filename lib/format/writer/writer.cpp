@@ -2,6 +2,7 @@
 #include "format/writer/writer.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "format/checksum.h"
@@ -28,34 +29,32 @@ uint64_t size_of(SectionId id, const Shape& shape) {
   return 0;
 }
 
+// The section table of a file, checksums aside.
+struct SectionTable {
+  std::array<Section, kSectionCount> sections = {};
+  uint64_t total_size = sizeof(FileHeader) + sizeof sections;
+
+  explicit SectionTable(const Shape& shape) {
+    for (uint32_t i = 0; i < kSectionCount; ++i) {
+      Section& section = sections[i];
+      section.id = static_cast<uint32_t>(kOrder[i]);
+      section.offset = (total_size + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
+      section.size = size_of(kOrder[i], shape);
+      total_size = section.offset + section.size;
+    }
+  }
+};
+
 }  // namespace
 
 Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts& parts,
                   Zeroed zeroed) {
-  Section sections[kSectionCount] = {};
-  uint64_t end = sizeof(FileHeader) + sizeof sections;
-  for (uint32_t i = 0; i < kSectionCount; ++i) {
-    const uint64_t offset = (end + kSectionAlignment - 1) / kSectionAlignment * kSectionAlignment;
-    sections[i].id = static_cast<uint32_t>(kOrder[i]);
-    sections[i].offset = offset;
-    sections[i].size = size_of(kOrder[i], shape);
-    end = offset + sections[i].size;
-  }
-
-  Image image =
-      Image::allocate(std::move(memory), end, zeroed == Zeroed::kAll ? end : sections[2].offset);
+  const SectionTable table(shape);
+  const auto& sections = table.sections;
+  Image image = Image::allocate(
+      std::move(memory), table.total_size,
+      zeroed == Zeroed::kAll ? table.total_size : sections[2].offset);  // the nodes are third
   std::byte* const data = image.bytes().data();
-  auto* const header = reinterpret_cast<FileHeader*>(data);
-  std::ranges::copy(kMagic, header->magic);
-  header->version = kFormatVersion;
-  header->header_size = sizeof(FileHeader);
-  header->total_size = end;
-  header->width = shape.width;
-  header->direction_count = shape.direction_count;
-  header->section_count = kSectionCount;
-  std::ranges::copy(sections, reinterpret_cast<Section*>(data + sizeof(FileHeader)));
-
-  parts.header = header;
   parts.directions = {reinterpret_cast<Direction*>(data + sections[0].offset),
                       shape.direction_count};
   parts.record = reinterpret_cast<BuildRecord*>(data + sections[1].offset);
@@ -64,17 +63,33 @@ Image begin_image(std::shared_ptr<Memory> memory, const Shape& shape, ImageParts
   return image;
 }
 
-void seal_image(Image& image, const Scheduler& scheduler) {
+void finish_image(Image& image, const Shape& shape, const HeaderFields& fields,
+                  const Scheduler& scheduler) {
   const std::span<std::byte> bytes = image.bytes();
-  auto* const header = reinterpret_cast<FileHeader*>(bytes.data());
-  const std::span sections(reinterpret_cast<Section*>(bytes.data() + sizeof(FileHeader)),
-                           header->section_count);
-  for (Section& section : sections) {
+  SectionTable table(shape);
+  for (Section& section : table.sections) {
     section.checksum =
         section_checksum(bytes.subspan(section.offset, section.size), scheduler, image.memory());
   }
-  header->header_checksum =
-      header_checksum(bytes.first(sizeof(FileHeader) + sections.size_bytes()));
+  std::ranges::copy(table.sections, reinterpret_cast<Section*>(bytes.data() + sizeof(FileHeader)));
+
+  FileHeader header = {};
+  std::ranges::copy(kMagic, header.magic);
+  header.version = kFormatVersion;
+  header.header_size = sizeof(FileHeader);
+  header.total_size = table.total_size;
+  header.volume = fields.volume;
+  header.width = shape.width;
+  header.direction_count = shape.direction_count;
+  header.section_count = kSectionCount;
+  header.depth = fields.depth;
+  std::ranges::copy(fields.centre, header.centre);
+  header.radius = fields.radius;
+  header.triangle_count = fields.triangle_count;
+  auto& in_image = *reinterpret_cast<FileHeader*>(bytes.data());
+  in_image = header;
+  in_image.header_checksum =
+      header_checksum(bytes.first(sizeof(FileHeader) + sizeof table.sections));
 }
 
 }  // namespace sobb

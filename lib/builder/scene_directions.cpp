@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "builder/volumes/scene_directions.h"
+#include "builder/scene_directions.h"
 
 #include <algorithm>
 #include <array>
@@ -12,28 +12,29 @@
 namespace sobb {
 namespace {
 
-// So many triangles tell a scene's directions as well as ten million.
+// A sample of this size tells a scene's directions as well as ten million triangles.
 constexpr uint64_t kMostSamples = 1 << 14;
-// A range of samples has its own sums, which are added up in order: the result depends on the
-// ranges, not on who does them.
+// Each range of samples has its own sums, which are added up in order: the result depends on the
+// ranges, not on the threads.
 constexpr uint64_t kGrain = 1 << 11;
 
-// A peak has this share of the whole area or length: 16 times what it would have of directions
-// spread evenly.
+// A peak has at least this share of all area or length: 16 times the share that it would have if
+// directions were spread evenly.
 constexpr double kLeastShare = 0.01;
 constexpr uint32_t kMostNormals = 16;
 constexpr uint32_t kMostEdges = 6;
 constexpr uint32_t kMostPeaks = std::max(kMostNormals, kMostEdges);
-// Cosines of the cones within which a peak's mean is taken again, ever narrower: what lies about a
-// peak must not draw it off the plane that many walls share. 0.36 and 0.036 degrees.
+// Cosines of the ever narrower cones, of 0.36 and 0.036 degrees, within which a peak's mean is
+// taken again: directions near a peak must not draw it off the plane that many walls share.
 constexpr double kConeCosines[] = {0.99998, 0.9999998};
-// A frame replaces the axes where the boxes of single triangles become smaller by this factor,
-// across: what a frame brings the hierarchy follows that (0.64 on pipes and 0.73 on a town that are
-// turned, where it is half of the triangles a ray tests; above 0.98 it is nothing).
+// A frame replaces the axes if the boxes of single triangles along it are on average at most this
+// wide, relative to those along the axes. A hierarchy's gain follows that ratio: it is 0.64 on
+// pipes and 0.73 on a town that are turned, where a ray then tests half as many triangles; above
+// 0.98 nothing is gained.
 constexpr double kLeastGain = 0.98;
 
-// Triangles of a mesh, evenly spread over it: one of each `stride` consecutive ones, at random,
-// since meshes repeat themselves (12 triangles a box, 2 a quad).
+// Triangles of a mesh, evenly spread over it: a random one of each `stride` consecutive ones, since
+// meshes repeat themselves (12 triangles per box, 2 per quad).
 class Sample {
  public:
   explicit Sample(const Mesh& mesh)
@@ -80,7 +81,7 @@ Histograms histograms_of(const Sample& sample, const Scheduler& scheduler,
                          std::pmr::memory_resource& memory) {
   std::pmr::vector<Histograms> ranges(&memory);
   ranges.reserve(sample.ranges());
-  // One by one: a copy would be in the default memory.
+  // Made one by one: a copy would use the default memory resource.
   for (uint64_t i = 0; i < sample.ranges(); ++i) ranges.emplace_back(memory);
   scheduler.for_ranges(sample.size(), kGrain, [&](uint64_t begin, uint64_t end) {
     Histograms& range = ranges[begin / kGrain];
@@ -98,7 +99,7 @@ Histograms histograms_of(const Sample& sample, const Scheduler& scheduler,
   return std::move(ranges[0]);
 }
 
-// Adds up what vectors lie in a cone about each peak.
+// Adds up the vectors that lie in a cone about each peak.
 class Cones {
  public:
   Cones(std::span<const DirectionPeak> peaks, double cosine) : peaks_(peaks), cosine_(cosine) {}
@@ -116,7 +117,7 @@ class Cones {
       for (size_t k = 0; k < 3; ++k) sums_[j][k] += other.sums_[j][k];
     }
   }
-  // The mean direction in each cone; the peak's own where nothing is in it.
+  // Moves each peak to the mean direction in its cone; a peak whose cone is empty stays.
   void move(std::pmr::vector<DirectionPeak>& peaks) const {
     for (size_t j = 0; j < peaks.size(); ++j) {
       const double norm = length(sums_[j]);
@@ -153,11 +154,11 @@ void refine(const Sample& sample, double cosine, const Scheduler& scheduler,
   of_edges[0].move(edges);
 }
 
-// Half the surface of a triangle's box along a frame.
+// Half the surface area of a triangle's box along a frame.
 double box_area(const OrthogonalFrame& frame, const Vector edge[3]) {
   double d[3];
   for (int k = 0; k < 3; ++k) {
-    // From corner to corner, the largest way: half of what all three go.
+    // The longest of the three edges' extents, which is half of their sum.
     d[k] = (std::fabs(dot(edge[0], frame.axis[k])) + std::fabs(dot(edge[1], frame.axis[k])) +
             std::fabs(dot(edge[2], frame.axis[k]))) /
            2;
@@ -165,11 +166,11 @@ double box_area(const OrthogonalFrame& frame, const Vector edge[3]) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-// The frame in which the boxes of single triangles are smallest. It is their size across that is
-// summed up: their areas would leave it to a few large triangles.
-OrthogonalFrame best_frame(const Sample& sample, const Scheduler& scheduler,
-                           std::span<const OrthogonalFrame> frames,
-                           std::pmr::memory_resource& memory) {
+// Finds the frame in which the boxes of single triangles are smallest; the first frame, the axes,
+// if the gain is small. The roots of areas are summed up: by areas a few large triangles would
+// decide.
+size_t best_frame(const Sample& sample, const Scheduler& scheduler,
+                  std::span<const OrthogonalFrame> frames, std::pmr::memory_resource& memory) {
   using Areas = std::array<double, kMostFrames>;
   std::pmr::vector<Areas> ranges(sample.ranges(), Areas{}, &memory);
   scheduler.for_ranges(sample.size(), kGrain, [&](uint64_t begin, uint64_t end) {
@@ -186,14 +187,13 @@ OrthogonalFrame best_frame(const Sample& sample, const Scheduler& scheduler,
     for (size_t j = 0; j < frames.size(); ++j) total[j] += range[j];
   }
   const auto best = std::min_element(total.begin(), total.begin() + frames.size());
-  return frames[*best < kLeastGain * total[0] ? static_cast<size_t>(best - total.begin()) : 0];
+  return *best < kLeastGain * total[0] ? static_cast<size_t>(best - total.begin()) : 0;
 }
 
 }  // namespace
 
-std::pmr::vector<Direction> scene_directions(const Mesh& mesh, uint32_t k,
-                                             const Scheduler& scheduler,
-                                             std::pmr::memory_resource& memory) {
+DirectionSet scene_directions(const Mesh& mesh, uint32_t k, const Scheduler& scheduler,
+                              std::pmr::memory_resource& memory) {
   const Sample sample(mesh);
   const Histograms histograms = histograms_of(sample, scheduler, memory);
   std::pmr::vector<DirectionPeak> normals = histograms.normals.peaks(kMostNormals, kLeastShare);
@@ -203,7 +203,9 @@ std::pmr::vector<Direction> scene_directions(const Mesh& mesh, uint32_t k,
   const OrthogonalFrame principal[] = {histograms.normals.principal_axes(),
                                        histograms.edges.principal_axes()};
   const auto frames = candidate_frames(normals, edges, principal, memory);
-  return turned_directions(k, best_frame(sample, scheduler, frames, memory), memory);
+  const size_t best = best_frame(sample, scheduler, frames, memory);
+  if (best == 0) return default_direction_set(k, memory);
+  return {turned_directions(k, frames[best], memory), SOBB_TABLE_FITTED};
 }
 
 }  // namespace sobb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "builder/topology/clip.h"
+#include "builder/boxes/clip.h"
 
 #include <cfloat>
 #include <cmath>
@@ -18,7 +18,7 @@ double largest_coordinate(const Corners& triangle) {
   return largest;
 }
 
-// A box that grows by points in double.
+// A box that grows by points, in double.
 struct Extent {
   double lower[3] = {FLT_MAX, FLT_MAX, FLT_MAX};
   double upper[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
@@ -30,7 +30,7 @@ struct Extent {
     }
   }
 
-  // Within `box`, outward by `error`; inside out only without a point.
+  // The box of the points, grown by `error` and kept within `box`; inside out only without a point.
   Box within(const Box& box, double error) const {
     Box result;
     for (int k = 0; k < 3; ++k) {
@@ -41,7 +41,7 @@ struct Extent {
   }
 };
 
-// A vertex in the frame, where it is cut, and in the mesh's coordinates, which follow along.
+// A vertex of a polygon. It is cut in the frame, and its point in the mesh follows along.
 struct Vertex {
   double at[3];
   double point[3];

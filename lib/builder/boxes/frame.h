@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coordinates that the topology is built in: a table fitted to a turned scene begins with the
-// scene's own frame, and along that its boxes are as small as an unturned scene's along the axes.
+// The coordinates that the topology is built in. A table fitted to a turned scene begins with the
+// scene's own frame; boxes along that frame are as small as an unturned scene's along the axes.
 #pragma once
 
-#include <span>
-
-#include "bounds/basis.h"
+#include "bounds/directions/direction_table.h"
 #include "builder/mesh.h"
 
 namespace sobb {
@@ -14,13 +12,14 @@ class Frame {
  public:
   Frame() = default;  // the mesh's own coordinates
 
-  // (n0 . (p - c), n1 . (p - c), n2 . (p - c)), n the first three directions of a table, which are
-  // perpendicular; the mesh's own coordinates where these are the axes.
-  Frame(std::span<const Direction> table, Point centre);
+  // The coordinates (n0 . (p - c), n1 . (p - c), n2 . (p - c)), where n0, n1, n2 are the table's
+  // first three directions, which are perpendicular. A spread table begins with the axes: its frame
+  // is the mesh's own coordinates.
+  Frame(const DirectionSet& table, Point centre);
 
   bool is_turned() const { return turned_; }
 
-  // A point of the mesh in the frame, rounded in double.
+  // Takes a point of the mesh into the frame; rounds in double.
   void turn(Point p, double at[3]) const {
     if (!turned_) {
       at[0] = p.x;
@@ -34,8 +33,8 @@ class Frame {
     for (int k = 0; k < 3; ++k) at[k] = normal_[k].x * x + normal_[k].y * y + normal_[k].z * z;
   }
 
-  // About the point of the mesh that turn() gives: the directions are perpendicular and of length 1
-  // within rounding to float.
+  // Takes a point of the frame to about the point of the mesh that turn() came from: the directions
+  // are perpendicular and of length 1 only within rounding to float.
   void turn_back(const double at[3], double point[3]) const;
 
  private:

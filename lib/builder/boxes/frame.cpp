@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "builder/topology/frame.h"
+#include "builder/boxes/frame.h"
 
 #include <algorithm>
 
 namespace sobb {
 
-Frame::Frame(std::span<const Direction> table, Point centre) {
-  for (int k = 0; k < 3; ++k) {
-    const Direction& n = table[k];
-    if (n.x != normal_[k].x || n.y != normal_[k].y || n.z != normal_[k].z) turned_ = true;
-  }
-  if (!turned_) return;
-  std::copy_n(table.begin(), 3, normal_);
+Frame::Frame(const DirectionSet& table, Point centre) {
+  if (table.table == SOBB_TABLE_SPREAD) return;
+  turned_ = true;
+  std::copy_n(table.directions.begin(), 3, normal_);
   centre_ = centre;
 }
 

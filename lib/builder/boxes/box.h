@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes along the axes of the topology's frame, which is built of them.
+// Boxes along the axes of the topology's frame.
+//
+// The room `builder/boxes` holds what binary hierarchies are made of: the frame, boxes along it,
+// triangles cut to boxes (clip.h), references to triangles (references.h), and the nodes
+// (binary_nodes.h). It knows the mesh and direction tables; how a hierarchy is chosen is the
+// business of `builder/sah` and `builder/topology`.
 #pragma once
 
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
 
+#include "builder/boxes/frame.h"
 #include "builder/mesh.h"
-#include "builder/topology/frame.h"
 
 namespace sobb {
 
@@ -30,7 +35,7 @@ struct Box {
     }
   }
 
-  // To what both have in common; inside out where that is nothing.
+  // Shrinks the box to what both have in common; inside out where that is nothing.
   void clip(const Box& other) {
     for (int k = 0; k < 3; ++k) {
       lower[k] = std::max(lower[k], other.lower[k]);
@@ -43,7 +48,7 @@ struct Box {
   }
 };
 
-// The nearest floats below and above a number, itself where it is one.
+// The nearest floats below and above a number; the number itself where it is a float.
 inline float float_below(double value) {
   const auto rounded = static_cast<float>(value);
   return rounded <= value ? rounded : std::nextafter(rounded, -FLT_MAX);
@@ -53,11 +58,11 @@ inline float float_above(double value) {
   return rounded >= value ? rounded : std::nextafter(rounded, FLT_MAX);
 }
 
-// The corners of a triangle as arrays of three axes.
+// A triangle's corners in double, in the frame and in the mesh's coordinates.
 struct Corners {
   double at[3][3];     // [corner][axis], in the topology's frame
-  double point[3][3];  // the same in the mesh's coordinates
-  bool turned;         // whether these differ
+  double point[3][3];  // [corner][axis], in the mesh's coordinates
+  bool turned;         // whether the two differ
 
   Corners(const Mesh& mesh, uint64_t triangle, const Frame& frame = Frame())
       : turned(frame.is_turned()) {
@@ -70,7 +75,7 @@ struct Corners {
     }
   }
 
-  // In the frame, outward.
+  // The box in the frame, rounded outward.
   Box box() const {
     Box box;
     for (int k = 0; k < 3; ++k) {
@@ -81,7 +86,7 @@ struct Corners {
   }
 };
 
-// The box of a triangle: of its corners as they are where the frame is the mesh's own.
+// A triangle's box in a frame, rounded outward where the frame is turned and exact where it is not.
 inline Box box_of(const Mesh& mesh, uint64_t triangle, const Frame& frame) {
   if (frame.is_turned()) return Corners(mesh, triangle, frame).box();
   const Point a = mesh.corner(triangle, 0);
