@@ -32,12 +32,6 @@ StudyScene::StudyScene(const std::string& source, const StudyOptions& options)
   summary_ = summarise(*mesh_, scheduler_, *memory_);
 }
 
-double StudyScene::box_area() const {
-  const Box box = {{summary_.lower.x, summary_.lower.y, summary_.lower.z},
-                   {summary_.upper.x, summary_.upper.y, summary_.upper.z}};
-  return 2 * box.half_area();
-}
-
 Topology StudyScene::build_topology(const Frame& frame) {
   Progress progress(nullptr, nullptr);
   return Topology(*mesh_, SOBB_QUALITY_MEDIUM, scheduler_, *memory_, progress, /*progress_end=*/1,

@@ -14,6 +14,7 @@
 #include "sobb/sobb.h"
 #include "study/report.h"
 #include "study/study_options.h"
+#include "volumes/box_area.h"
 
 namespace sobb::study {
 
@@ -25,7 +26,7 @@ class StudyScene {
   const sobb_triangles& triangles() const { return triangles_; }
   const Mesh& mesh() const { return *mesh_; }
   const MeshSummary& summary() const { return summary_; }
-  double box_area() const;
+  double box_area() const { return study::box_area(summary_); }
   const Scheduler& scheduler() const { return scheduler_; }
   Memory& memory() { return *memory_; }
 

@@ -34,10 +34,9 @@ struct AffineSlabs {
     Vector m[3];
     for (int i = 0; i < 3; ++i) {
       m[i] = {row[i][0], row[i][1], row[i][2]};
-      sum += std::sqrt(m[i][0] * m[i][0] + m[i][1] * m[i][1] + m[i][2] * m[i][2]);
+      sum += length(m[i]);
     }
-    const Vector normal = cross(m[1], m[2]);
-    return 2 * sum / std::fabs(m[0][0] * normal[0] + m[0][1] * normal[1] + m[0][2] * normal[2]);
+    return 2 * sum / std::fabs(dot(m[0], cross(m[1], m[2])));
   }
 
   bool contains(const double p[3]) const {

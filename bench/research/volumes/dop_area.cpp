@@ -66,8 +66,8 @@ void span_plane(const Direction& n, Vector& u, Vector& v) {
   const Vector normal = {n.x, n.y, n.z};
   const Vector helper = std::fabs(n.x) < 0.6 ? Vector{1, 0, 0} : Vector{0, 1, 0};
   u = cross(normal, helper);
-  const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
-  for (double& component : u) component /= length;
+  const double norm = length(u);
+  for (double& component : u) component /= norm;
   v = cross(normal, u);
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/float_control.h"
 #include "base/isa.h"
+#include "volumes/box_area.h"
 #include "volumes/nodes.h"
 
 namespace sobb::study {
@@ -43,7 +44,7 @@ Hierarchy::Hierarchy(Hierarchy&&) noexcept = default;
 Hierarchy& Hierarchy::operator=(Hierarchy&&) noexcept = default;
 
 Areas Hierarchy::areas(const Scheduler& scheduler) const {
-  const double box = topology_->box_area();
+  const double box = box_area(topology_->summary());
   const Areas sum = nodes_->areas(scheduler);
   return box > 0 ? Areas{sum.inner / box, sum.leaf / box} : Areas{};
 }

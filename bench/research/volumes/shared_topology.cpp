@@ -79,11 +79,4 @@ const SharedTopology::Layout& SharedTopology::layout(uint32_t width) const {
   return width == 2 ? *binary_ : *eight_wide_;
 }
 
-double SharedTopology::box_area() const {
-  const double x = static_cast<double>(summary_.upper.x) - summary_.lower.x;
-  const double y = static_cast<double>(summary_.upper.y) - summary_.lower.y;
-  const double z = static_cast<double>(summary_.upper.z) - summary_.lower.z;
-  return 2 * (x * y + y * z + z * x);
-}
-
 }  // namespace sobb::study

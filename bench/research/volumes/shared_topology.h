@@ -48,7 +48,6 @@ class SharedTopology {
 
   const Mesh& mesh() const { return mesh_; }
   const MeshSummary& summary() const { return summary_; }
-  double box_area() const;
   const std::shared_ptr<Memory>& memory() const { return memory_; }
 
  private:

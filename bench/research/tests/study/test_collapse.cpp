@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "study/exact_collapse.h"
-#include "study/greedy_collapse.h"
-#include "study/leaf_choice.h"
-#include "study/sah_costs.h"
+#include "study/binary/leaf_choice.h"
+#include "study/binary/sah_costs.h"
+#include "study/wide/exact_collapse.h"
+#include "study/wide/greedy_collapse.h"
 #include "support/soups.h"
 
 namespace sobb::study {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The counting traversal hits what brute force hits, in every tree and however it clips.
-#include "study/counting_trace.h"
+#include "study/bases/counting_trace.h"
 
 #include <gtest/gtest.h>
 
 #include "base/memory.h"
-#include "study/basis_rules.h"
+#include "study/bases/basis_rules.h"
 #include "support/soups.h"
 
 namespace sobb::study {

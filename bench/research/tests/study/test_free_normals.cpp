@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The least area over free normals, where it is known.
-#include "study/free_normals.h"
+#include "study/areas/free_normals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The study's builder keeps every triangle, whatever it splits by.
-#include "study/sah_builder.h"
+#include "study/binary/sah_builder.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "base/memory.h"
-#include "study/fibre_split.h"
+#include "study/binary/fibre_split.h"
 #include "support/soups.h"
 
 namespace sobb::study {

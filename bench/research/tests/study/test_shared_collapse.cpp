@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The collapse that knows the shared basis makes nodes and leaves that a file can hold.
-#include "study/shared_collapse.h"
+#include "study/wide/shared_collapse.h"
 
 #include <gtest/gtest.h>
 
 #include "base/memory.h"
 #include "format/layout.h"
-#include "study/sah_builder.h"
-#include "study/wide_layout.h"
+#include "study/binary/sah_builder.h"
+#include "study/wide/wide_layout.h"
 #include "support/soups.h"
 
 namespace sobb::study {

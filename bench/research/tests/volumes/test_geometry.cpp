@@ -8,20 +8,16 @@
 #include "volumes/affine_slabs.h"
 #include "volumes/ditetrahedron.h"
 #include "volumes/dop_area.h"
+#include "volumes/tables.h"
 
 namespace sobb::study {
 namespace {
 
 using test::Random;
 
-constexpr float kThird = 0.57735026F;
-constexpr Direction kSeven[] = {{1, 0, 0},
-                                {0, 1, 0},
-                                {0, 0, 1},
-                                {kThird, kThird, kThird},
-                                {-kThird, kThird, kThird},
-                                {kThird, -kThird, kThird},
-                                {-kThird, -kThird, kThird}};
+constexpr float kThird = 0.57735026F;  // 1 / sqrt 3
+constexpr Method kDop14 = kMethods[1];
+static_assert(kDop14.volume == VolumeKind::kDop14);
 
 // The cuts of a box [-1, 1]^3 by planes at `cut` along the diagonals.
 double cut_cube_area(float cut) {
@@ -30,7 +26,7 @@ double cut_cube_area(float cut) {
     slab[k][1] = k < 3 ? 1 : cut;
     slab[k][0] = -slab[k][1];
   }
-  return dop_area(kSeven, slab);
+  return dop_area(directions_of(kDop14), slab);
 }
 
 TEST(DopArea, OfABoxThatNothingCuts) { EXPECT_NEAR(cut_cube_area(1.8F), 24, 1e-6); }
@@ -50,7 +46,7 @@ TEST(DopArea, OfAnOctahedron) {
 
 TEST(DopArea, OfAPoint) {
   const float slab[7][2] = {};
-  EXPECT_EQ(dop_area(kSeven, slab), 0);
+  EXPECT_EQ(dop_area(directions_of(kDop14), slab), 0);
 }
 
 TEST(AffineSlabs, AreaIsThatOfTheSlabs) {

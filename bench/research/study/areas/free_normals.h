@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The skewed box of least area with any three normals, by numerical search: what tables of
+// directions are measured against.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "bounds/basis.h"
+#include "study/areas/point_set.h"
+
+namespace sobb::study {
+
+using Normals = std::array<Direction, 3>;
+
+// The area of the points' skewed box with these normals; infinite for normals flatter than a table
+// may use (kSmallestDeterminant).
+double area_with(const PointSet& points, const Normals& normals);
+
+// The least area that local searches from the given normals, and from some random ones, find.
+double optimise_normals(const PointSet& points, std::span<const Normals> starts);
+
+}  // namespace sobb::study
