@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Python package as a user does, into a new virtual environment, and proves that it
-# works with NumPy alone, on the libraries and programs that it brought; and that the source
-# distribution has every source.
+# works with NumPy alone, on the libraries and programs that it brought; that the source distribution
+# has every source that these need, and no more; and that the wheel has no other program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
@@ -16,14 +16,17 @@ python3 -m venv "$folder/venv"
   --config-settings=cmake.define.SOBB_WERROR=ON ./python build
 "$folder/venv/bin/python" -m build --sdist --outdir "$folder" python >/dev/null
 
-git ls-files bench capi cmake lib CMakeLists.txt python | sed 's|^python/|/|' | sort \
-  >"$folder/sources"
-tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/native/||' | sort \
-  >"$folder/shipped"
-missing=$(comm -23 "$folder/sources" "$folder/shipped")
-[[ -z $missing ]] || { echo "not in the source distribution: $missing" >&2; exit 1; }
+# The studies, their charts and the tests of bench/research stay at home.
+git ls-files bench capi cmake lib CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md python \
+  ':!bench/research/'{charts,study,study_charts.py,tests} |
+  sed 's|^python/|/|' | sort >"$folder/sources"
+tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/native/||' |
+  grep -vx /PKG-INFO | sort >"$folder/shipped"
+diff "$folder/sources" "$folder/shipped" ||
+  { echo "< is not in the source distribution, > is there in vain" >&2; exit 1; }
 
 package=$("$folder/venv/bin/python" -c 'import sobb; print(sobb.__path__[0])')
+[[ $(ls "$package/native/bin" | xargs) == "sobb_bench sobb_bench_volumes" ]]
 git ls-files python/sobb | while read -r file; do
   [[ -f $package/${file#python/sobb/} ]] || { echo "not in the wheel: $file" >&2; exit 1; }
 done
