@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows build/METHOD: from triangles to a hierarchy.
+// The rows build/METHOD measure the way from triangles to a hierarchy.
 #include "rows.h"
 
 namespace sobb::bench {

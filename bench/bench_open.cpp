@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows open/sobb/private and open/sobb/mapped: a saved file, in the page cache, opened and proved.
+// The rows open/sobb/private and open/sobb/mapped open and validate a saved file that lies in the
+// page cache.
 #include "check.h"
 #include "rows.h"
 #include "stopwatch.h"

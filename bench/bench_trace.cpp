@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows KIND/METHOD/CALL: one pass over a ray set an iteration.
+// The rows KIND/METHOD/CALL make one pass over a ray set per iteration.
 #include <algorithm>
 
 #include "rows.h"
@@ -26,7 +26,7 @@ void trace_subject(benchmark::State& state, Workbench& workbench, RayKind kind, 
   }
   set_speed(state, set);
   state.counters["bytes/triangle"] = workbench.per_triangle(subject.info().bytes);
-  if (call == Call::kSingle) {  // the kernel that counts is the single-ray one
+  if (call == Call::kSingle) {  // the single-ray kernel is the one that counts
     const WorkPerRay work = workbench.work(kind, method);
     state.counters["nodes/ray"] = work.nodes;
     state.counters["volumes/ray"] = work.volumes;
@@ -35,8 +35,8 @@ void trace_subject(benchmark::State& state, Workbench& workbench, RayKind kind, 
   }
 }
 
-// A clock around every ray would cost as much as the ray, so the time of the replays is that of a
-// pass with them less that of a pass without.
+// A clock around every ray would cost as much as the ray. So the replays take the time of a pass
+// with them minus that of a pass without.
 void replay_subject(benchmark::State& state, Workbench& workbench, RayKind kind, Method method) {
   const SobbSubject& subject = workbench.subject(method);
   const RaySet& set = workbench.rays(kind);
@@ -46,7 +46,7 @@ void replay_subject(benchmark::State& state, Workbench& workbench, RayKind kind,
   for ([[maybe_unused]] auto _ : state) {
     const double real = subject.trace(set, Call::kSingle, workbench.workers(), output);
     const double both = subject.trace_twice(set, workbench.workers(), output);
-    state.SetIterationTime(std::max(both - real, 0.0));  // less than none by noise alone
+    state.SetIterationTime(std::max(both - real, 0.0));  // noise alone makes it negative
     once += real;
     replays += both - real;
   }

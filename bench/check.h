@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's statuses as exceptions with the library's own message.
+// check() throws a failed status of the library, with the library's own message.
 #pragma once
 
 #include <stdexcept>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the system and the libraries.
+// The system and the libraries say where and by what a run measures.
 #include "circumstances.h"
 
 #include <fstream>
@@ -22,6 +22,10 @@ std::string isa_name(sobb_isa isa) {
   sobb_isa resolved = SOBB_ISA_BEST;
   check(sobb_resolve_isa(isa, &resolved));
   return sobb_isa_name(resolved);
+}
+
+std::string strategy_name(uint32_t strategy) {
+  return strategy == SOBB_STRATEGY_K ? "k" : strategy == SOBB_STRATEGY_K3 ? "k3" : "k2";
 }
 
 std::string library_version() {

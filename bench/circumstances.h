@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where and by what a run measures, in words.
+// Words for where and by what a run measures: processor, instruction set, versions, strategy.
 #pragma once
 
 #include <string>
@@ -13,6 +13,9 @@ std::string processor();
 
 /// The instruction set that @p isa stands for on this machine. Throws where it is not there.
 std::string isa_name(sobb_isa isa);
+
+/// "k", "k2" or "k3".
+std::string strategy_name(uint32_t strategy);
 
 std::string library_version();
 std::string embree_version();

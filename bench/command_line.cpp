@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line, by CLI11.
+// CLI11 parses our flags and leaves the rest to Google Benchmark.
 #include "command_line.h"
 
 #include <benchmark/benchmark.h>
@@ -12,20 +12,28 @@ namespace {
 
 constexpr int kUsageError = 2;
 
-// Medians of interleaved repetitions: what makes rows of one run comparable. The caller's flags
-// come later on Google Benchmark's command line and win.
+// Medians of interleaved repetitions make the rows of one run comparable. The caller's flags come
+// later on Google Benchmark's command line and win.
 const std::vector<std::string> kBenchmarkDefaults{"--benchmark_repetitions=5",
                                                   "--benchmark_enable_random_interleaving=true",
                                                   "--benchmark_display_aggregates_only=true"};
 
 }  // namespace
 
+void add_scene_options(CLI::App& app, std::string& scene, std::string& cameras, uint64_t& view) {
+  app.add_option("--scene", scene,
+                 "a scene file or builtin:NAME[:TRIANGLES]; ^TIMES refines it, @DEGREES turns it")
+      ->capture_default_str();
+  app.add_option("--cameras", cameras, "a JSON file of views (see sobb/scene.h)");
+  app.add_option("--view", view, "which of the scene's views")->capture_default_str();
+}
+
 std::vector<std::string> parse_command_line(CLI::App& app, int argc, char** argv) {
   app.allow_extras();
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::cout << app.help() << "\nand those of Google Benchmark:\n" << std::flush;
+    std::cout << app.help() << "\nFlags of Google Benchmark:\n" << std::flush;
     benchmark::PrintDefaultHelp();
     std::exit(0);
   } catch (const CLI::ParseError& error) {

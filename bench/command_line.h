@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both programs do with a command line: our flags are CLI11's, the rest Google Benchmark's.
+// The command line of both benchmark programs: CLI11 parses our flags, Google Benchmark the rest.
 #pragma once
 
 #include <CLI/App.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace sobb::bench {
 
-/// Parses by @p app, whose name is the program's. Returns what Google Benchmark shall parse: the
+/// Adds --scene, --cameras and --view, which say what is traced and from where.
+void add_scene_options(CLI::App& app, std::string& scene, std::string& cameras, uint64_t& view);
+
+/// Parses by @p app, whose name is the program's. Returns what Google Benchmark parses: the
 /// program, our defaults, the caller's --benchmark_ flags. Prints and exits with 0 for --help, with
 /// 2 for a wrong flag or value.
 std::vector<std::string> parse_command_line(CLI::App& app, int argc, char** argv);

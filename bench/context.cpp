@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills the report's context, so that a file of results says what it measured.
+// add_context() fills the report's context, so that a file of results says what it measured.
 #include "context.h"
 
 #include <benchmark/benchmark.h>
@@ -13,10 +13,6 @@ namespace {
 
 std::string quality_name(uint32_t quality) {
   return quality == SOBB_QUALITY_LOW ? "low" : quality == SOBB_QUALITY_HIGH ? "high" : "medium";
-}
-
-std::string strategy_name(uint32_t strategy) {
-  return strategy == SOBB_STRATEGY_K ? "k" : strategy == SOBB_STRATEGY_K3 ? "k3" : "k2";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run's report says of its circumstances.
+// The context of a run's report: what was measured, where and with which options.
 #pragma once
 
 #include "workbench.h"

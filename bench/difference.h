@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results compared bit by bit.
+// first_difference() compares results bit by bit.
 #pragma once
 
 #include <array>
@@ -11,13 +11,13 @@ namespace sobb::bench {
 
 inline constexpr size_t kEqual = static_cast<size_t>(-1);
 
-/// Its bytes, so that floats compare by bits.
+/// The value's bytes, so that floats compare by bits.
 template <typename T>
 auto bits(const T& value) {
   return std::bit_cast<std::array<std::byte, sizeof(T)>>(value);
 }
 
-/// The first element whose bits differ, or kEqual. Of equal lengths.
+/// The first element whose bits differ, or kEqual. Both have the same length.
 template <typename T>
 size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
   for (size_t i = 0; i < a.size(); ++i) {

@@ -63,7 +63,7 @@ class EmbreeQuery {
 
 #endif
 
-/// Whether this Embree has a call for the whole array: version 4 gave it up.
+/// True where Embree has a call for a whole array: version 4 gave it up.
 inline constexpr bool kEmbreeHasArrayCall = SOBB_EMBREE_MAJOR < 4;
 
 }  // namespace sobb::bench

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds with Embree and traces in the way its manual advises: flush-to-zero, the coherent flag
-// where rays are coherent, one context a thread.
+// The peer builds with Embree and traces as its manual advises: with flush-to-zero, with the
+// coherent flag where rays are coherent, with one context per thread.
 #include "embree_peer.h"
 
 #if defined(__SSE2__)
@@ -12,7 +12,7 @@
 namespace sobb::bench {
 namespace {
 
-// Flush-to-zero and denormals-are-zero while Embree traces.
+// Sets flush-to-zero and denormals-are-zero while Embree traces.
 class FlushDenormals {
  public:
   FlushDenormals(const FlushDenormals&) = delete;

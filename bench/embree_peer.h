@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The peer: Embree's own hierarchy over the same triangles.
+// EmbreePeer is the library's peer: Embree's own hierarchy over the same triangles.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays to Embree's layouts and hits back.
+// EmbreeRays copies rays into Embree's layouts and reads hits back.
 #include "embree_rays.h"
 
 #include <limits>

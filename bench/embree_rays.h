@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray set in the layouts that Embree's callers hold natively, filled outside of the timed part.
+// EmbreeRays holds a ray set in the layouts of Embree's callers. They are filled outside of the
+// timed part.
 #pragma once
 
 #include <vector>
@@ -21,7 +22,7 @@ class EmbreeRays {
   std::vector<RTCRayHit8> rayhits8;
   std::vector<RTCRay> rays;
   std::vector<RTCRay8> rays8;
-  /// Which lanes of the last packet hold rays (all of those before it do).
+  /// -1 in the last packet's lanes that hold rays, else 0. All lanes of the packets before it do.
   alignas(32) int last_valid[8] = {};
 };
 

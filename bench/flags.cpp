@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line, by CLI11.
+// Declares the flags for CLI11.
 #include "flags.h"
 
 #include <CLI/CLI.hpp>
@@ -16,27 +16,24 @@ CLI::CheckedTransformer names(const std::map<std::string, uint32_t>& values) {
 }
 
 void add_flags(CLI::App& app, Flags& flags) {
-  app.add_option("--scene", flags.scene,
-                 "a scene file, or builtin:NAME[:TRIANGLES]; with ^TIMES refined, @DEGREES turned")
-      ->capture_default_str();
-  app.add_option("--cameras", flags.cameras, "a JSON file of views (see sobb/scene.h)");
-  app.add_option("--view", flags.view, "which of the scene's views")->capture_default_str();
+  add_scene_options(app, flags.scene, flags.cameras, flags.view);
   app.add_option("--size", flags.size, "trace SIZE x SIZE primary rays")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
   app.add_option("--k", flags.k, "planes of the k-DOP")
       ->check(CLI::IsMember({32, 48, 64}))
       ->capture_default_str();
-  app.add_option("--quality", flags.quality, "of aabb and sobb: low, medium (default) or high")
+  app.add_option("--quality", flags.quality,
+                 "quality of aabb and sobb: low, medium (default) or high")
       ->transform(names({{"low", SOBB_QUALITY_LOW},
                          {"medium", SOBB_QUALITY_MEDIUM},
                          {"high", SOBB_QUALITY_HIGH}}));
-  app.add_option("--strategy", flags.strategy, "of the basis: k, k2 (default) or k3")
+  app.add_option("--strategy", flags.strategy, "search for a basis: k, k2 (default) or k3")
       ->transform(
           names({{"k", SOBB_STRATEGY_K}, {"k2", SOBB_STRATEGY_K2}, {"k3", SOBB_STRATEGY_K3}}));
-  app.add_option("--table", flags.table, "directions of SOBBs: spread or fitted (default)")
+  app.add_option("--table", flags.table, "direction table of SOBBs: spread or fitted (default)")
       ->transform(names({{"spread", SOBB_TABLE_SPREAD}, {"fitted", SOBB_TABLE_FITTED}}));
-  app.add_option("--width", flags.width, "children a node")
+  app.add_option("--width", flags.width, "children per node")
       ->check(CLI::IsMember({4, 8}))
       ->capture_default_str();
   app.add_option("--threads", flags.threads, "threads of every build and trace, Embree's too")

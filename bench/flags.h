@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line: our flags, and what is left for Google Benchmark.
+// The command line of sobb_bench: our flags, and what is left for Google Benchmark.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,9 @@ struct Flags {
   std::string cameras;  // empty: the scene's own
   uint64_t view = 0;
   uint32_t k = 64;
-  uint32_t quality = SOBB_QUALITY_MEDIUM;  // of the methods that do not say theirs
+  uint32_t quality = SOBB_QUALITY_MEDIUM;  // of aabb and sobb; other methods name theirs
   uint32_t strategy = SOBB_STRATEGY_K2;
-  uint32_t table = SOBB_TABLE_FITTED;  // of SOBBs
+  uint32_t table = SOBB_TABLE_FITTED;  // of directions for SOBBs
   uint32_t width = 8;
   uint32_t threads = 1;
   std::string isa = "best";

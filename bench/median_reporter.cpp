@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes rows on and remembers the first that failed.
+// MedianReporter passes rows on and remembers the first that failed.
 #include "median_reporter.h"
 
 namespace sobb::bench {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run shows: Google Benchmark's own report.
+// MedianReporter shows Google Benchmark's own report, on a console its medians only.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the rays, in double and without the standard library's distributions, which differ between
-// implementations.
+// The rays are made in double and without the standard library's distributions, which differ
+// between implementations.
 #include "ray_sets.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // SplitMix64 (G. Steele, D. Lea, C. Flood, Fast Splittable Pseudorandom Number Generators, 2014).
-// One stream a ray, so that a ray does not depend on those before it.
+// Each ray has its own sequence, so that it does not depend on the rays before it.
 class Random {
  public:
   Random(uint64_t seed, uint64_t ray) : state_(mix(seed) ^ mix(ray)) {}
@@ -58,9 +58,9 @@ sobb_ray make_ray(Vec3 origin, Vec3 direction, float tmax) {
       tmax};
 }
 
-// The camera's right-handed frame, all unit vectors.
-struct Frame {
-  explicit Frame(const sobb_view& view)
+// The camera's right-handed axes, all unit vectors.
+struct CameraAxes {
+  explicit CameraAxes(const sobb_view& view)
       : forward(normalized(load(view.target) - load(view.eye))),
         right(normalized(cross(forward, load(view.up)))),
         up(cross(right, forward)) {}
@@ -68,7 +68,7 @@ struct Frame {
   Vec3 forward, right, up;
 };
 
-// Every second bit of a Morton code of six bits: the pixel's place in its tile.
+// Every second bit of a Morton code of six bits is one coordinate of the pixel in its tile.
 constexpr uint32_t even_bits(uint32_t code) {
   return (code & 1) | ((code >> 1) & 2) | ((code >> 2) & 4);
 }
@@ -77,7 +77,7 @@ constexpr uint32_t even_bits(uint32_t code) {
 
 RaySet primary_rays(const sobb_view& view, uint32_t size) {
   constexpr uint32_t kTile = 8;
-  const Frame frame(view);
+  const CameraAxes camera(view);
   const double half_height = std::tan(view.vfov_degrees * std::numbers::pi / 360);
   RaySet set{RayKind::kPrimary, {}};
   set.rays.reserve(size_t{size} * size);
@@ -89,7 +89,7 @@ RaySet primary_rays(const sobb_view& view, uint32_t size) {
         if (x >= size || y >= size) continue;
         const double across = half_height * ((2 * x + 1.0) / size - 1);
         const double down = half_height * ((2 * y + 1.0) / size - 1);
-        const Vec3 direction = frame.forward + across * frame.right - down * frame.up;
+        const Vec3 direction = camera.forward + across * camera.right - down * camera.up;
         set.rays.push_back(make_ray(load(view.eye), normalized(direction), kInfinity));
       }
     }
@@ -133,8 +133,8 @@ Surface surface_of(const sobb_triangles& triangles, const sobb_scene_info& scene
 }
 
 RaySet shadow_rays(const sobb_view& view, const Surface& surface) {
-  const Frame frame(view);
-  const Vec3 light = load(view.eye) + surface.median_distance / 2 * (frame.right + frame.up);
+  const CameraAxes camera(view);
+  const Vec3 light = load(view.eye) + surface.median_distance / 2 * (camera.right + camera.up);
   RaySet set{RayKind::kShadow, {}};
   for (const SurfacePoint& point : surface.points) {
     const Vec3 to_light = light - point.position;

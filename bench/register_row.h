@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers one row with Google Benchmark.
+// register_row() registers one row with Google Benchmark.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -9,8 +9,8 @@
 
 namespace sobb::bench {
 
-/// A row whose body sets the time of each iteration itself. An exception ends the row with its
-/// message, not the program.
+/// The body sets the time of each iteration itself. An exception ends the row with its message, and
+/// the program goes on.
 template <typename Body>
 benchmark::internal::Benchmark* register_row(const std::string& name, const Body& body) {
   return benchmark::RegisterBenchmark(name.c_str(),

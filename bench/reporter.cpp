@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Remembers medians and prints the table of ratios.
+// Reporter remembers medians and prints the table of ratios.
 #include "reporter.h"
 
 #include <algorithm>
@@ -47,7 +47,8 @@ double Reporter::best_peer(RayKind kind) const {
 void Reporter::print_ratios(std::ostream& out) const {
   constexpr int kNameWidth = 32;
   constexpr int kCellWidth = 18;
-  out << "\nMrays/s, medians (in brackets: over the kind's fastest Embree row that is not robust)\n"
+  out << "\nMrays/s, medians (in brackets: over the fastest Embree row of the kind that is not "
+         "robust)\n"
       << std::left << std::setw(kNameWidth) << "" << std::right;
   for (const Call call : kCalls) out << std::setw(kCellWidth) << name_of(call);
   out << "\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sobb_bench shows: the report, and on a console a table of ratios after it.
+// Reporter shows the report of sobb_bench and, on a console, a table of ratios after it.
 #pragma once
 
 #include <map>

@@ -11,12 +11,12 @@ enum class RayKind { kPrimary, kShadow, kDiffuse1, kDiffuse7, kRandom };
 inline constexpr std::array kRayKinds{RayKind::kPrimary, RayKind::kShadow, RayKind::kDiffuse1,
                                       RayKind::kDiffuse7, RayKind::kRandom};
 
-/// How rays are handed over: one a call, 16 a call (Embree: 8), or the whole array in one call.
+/// How rays are handed over: one per call, 16 per call (Embree: 8), or the whole array in one call.
 enum class Call { kSingle, kPacket, kArray };
 inline constexpr std::array kCalls{Call::kSingle, Call::kPacket, Call::kArray};
 
-/// Ours, of the quality that the flags name or of high quality; Embree's, without and with its
-/// robust flag.
+/// Our hierarchies, of the quality that the flags name or of high quality; Embree's, without and
+/// with its robust flag.
 enum class Method {
   kAabb,
   kSobb,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registers the rows with Google Benchmark.
+// Each function registers one kind of rows with Google Benchmark.
 #pragma once
 
 #include "register_row.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loads the scene through the importers' C functions.
+// SceneInput loads the scene through the importers' C functions.
 #include "scene_input.h"
 
 #include <cstring>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene: one array of vertices and one of indices that the library and Embree both read.
+// SceneInput holds the scene: one array of vertices and one of indices, which the library and
+// Embree both read.
 #pragma once
 
 #include <cstdint>

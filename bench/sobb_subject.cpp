@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds and traces through the C ABI. The instruction set is the environment's SOBB_ISA, which
-// main sets from the flags, since calls for one ray or a packet take no options.
+// The subject builds and traces through the C ABI. The instruction set is the environment's
+// SOBB_ISA, which main sets from the flags, since calls for one ray or a packet take no options.
 #include "sobb_subject.h"
 
 #include <algorithm>

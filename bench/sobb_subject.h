@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library under test: one hierarchy, built, saved and traced through the C ABI.
+// SobbSubject is the library under test: one hierarchy, built, saved and traced through the C ABI.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@
 
 namespace sobb::bench {
 
-/// Means over the rays of a set, by the single-ray kernel.
+/// What a ray tests in the single-ray kernel, as means over a set.
 struct WorkPerRay {
   double nodes = 0;
   double volumes = 0;
@@ -35,8 +35,8 @@ class SobbSubject {
   /// Traces the set into @p output, which has room, and returns the seconds that it took.
   double trace(const RaySet& set, Call call, Workers& workers, TraceOutput& output) const;
 
-  /// As one ray a call, each ray traced a second time right after the first: what it needs is in
-  /// the caches then.
+  /// Traces as trace() does with one ray per call, but each ray a second time right after the
+  /// first: what it needs is in the caches then.
   double trace_twice(const RaySet& set, Workers& workers, TraceOutput& output) const;
 
   WorkPerRay count_work(const RaySet& set) const;

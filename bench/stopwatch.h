@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Seconds that a piece of work took.
+// Stopwatch measures the seconds that a piece of work takes.
 #pragma once
 
 #include <ctime>
 
 namespace sobb::bench {
 
-/// One thread is measured in processor time of the process, which other programs on the machine
-/// disturb least, and which counts every thread that a callee might start; several threads on the
-/// wall clock.
+/// One thread is measured in processor time of the process: other programs on the machine disturb
+/// it least, and it counts every thread that a callee might start. Several threads are measured on
+/// the wall clock.
 class Stopwatch {
  public:
   explicit Stopwatch(unsigned threads)

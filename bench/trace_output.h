@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a pass over a ray set found.
+// TraceOutput holds what a pass over a ray set found.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct TraceOutput {
   std::vector<sobb_hit> hits;     // of closest-hit rays
   std::vector<uint8_t> occluded;  // of any-hit rays
 
-  /// Makes room; done before the clock starts.
+  /// Makes room, before the clock starts.
   void resize(const RaySet& set) {
     hits.resize(set.any_hit() ? 0 : set.rays.size());
     occluded.resize(set.any_hit() ? set.rays.size() : 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three doubles: rays are made in double and rounded to float once.
+// Vec3 is three doubles: rays are made in double and rounded to float once.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares hits: ours with ours bit by bit, ours with Embree's by count.
+// verify() compares our hits with each other bit by bit, and with Embree's by count.
 #include "verify.h"
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// After the run: did what was timed find the right hits?
+// verify() checks after the run that what was timed found the right hits.
 #pragma once
 
 #include <ostream>
@@ -9,8 +9,8 @@
 namespace sobb::bench {
 
 /// Traces every ray set that the run made with every hierarchy that it built, by all calls, and
-/// compares the results bit by bit; says how many rays Embree answers otherwise. Returns false,
-/// with the first difference written to @p log, where two of ours differ.
+/// compares the results bit by bit; says for how many rays Embree finds another result. Returns
+/// false, with the first difference written to @p log, where two of ours differ.
 bool verify(Workbench& workbench, std::ostream& log);
 
 }  // namespace sobb::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the shared parts on demand, so that a filtered run is quick.
+// The shared parts are made on demand, so that a filtered run is quick.
 #include "workbench.h"
 
 #include <cerrno>

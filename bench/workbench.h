@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that the rows share, each part made when a row first needs it.
+// Workbench holds all that the rows share. It makes each part when a row first needs it.
 #pragma once
 
 #include <filesystem>
@@ -39,7 +39,7 @@ class Workbench {
   double per_triangle(uint64_t bytes) const {
     return static_cast<double>(bytes) / static_cast<double>(scene_.info().triangle_count);
   }
-  /// The SOBB hierarchy as a file in a folder of its own that goes with the workbench.
+  /// The SOBB hierarchy as a file, in a folder of its own that the destructor removes.
   const std::filesystem::path& saved_file();
 
   // What has been made so far.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of every traced row: an array of rays in chunks, ours and Embree's alike.
+// Workers are the threads of every traced row. They share an array of rays out in chunks, for our
+// calls and Embree's alike.
 #pragma once
 
 #include <tbb/parallel_for.h>
@@ -14,7 +15,7 @@ class Workers {
  public:
   explicit Workers(int threads) : arena_(threads) {}
 
-  /// body(begin, end) over chunks of [0, count); on the calling thread alone where there is one.
+  /// Calls body(begin, end) for chunks of [0, count); with one thread, on the calling one.
   template <typename Body>
   void for_chunks(size_t count, const Body& body) {
     if (arena_.max_concurrency() == 1) {

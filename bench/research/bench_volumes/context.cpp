@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fills the report's context, so that a file of results says what it measured.
+// add_context() fills the report's context, so that a file of results says what it measured.
 #include "bench_volumes/context.h"
 
 #include <benchmark/benchmark.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sobb_bench_volumes. Exit code: 0 when all rows ran and all hits agree, 1 when not, 2 for wrong
-// usage.
+// sobb_bench_volumes compares all bounding volumes of the paper. Its exit code is 0 when all rows
+// ran and all hits agree, 1 when not, 2 for wrong usage.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace sobb::bench::volumes;
 
-// Google Benchmark does not take a report for a file where no file was asked for.
+// Google Benchmark refuses a report for a file where no file was asked for.
 bool writes_file(const std::vector<std::string>& arguments) {
   return std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
     return argument.starts_with("--benchmark_out=");

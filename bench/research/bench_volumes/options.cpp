@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Declares the flags.
+// Declares the flags for CLI11.
 #include "bench_volumes/options.h"
 
 #include <CLI/CLI.hpp>
@@ -12,7 +12,7 @@
 namespace sobb::bench::volumes {
 namespace {
 
-/// A flag whose value is one of a few words.
+/// Adds a flag whose value is one of a few words.
 template <typename T>
 CLI::Option* add_choice(CLI::App& app, const std::string& flag, T& target,
                         const std::map<std::string, T>& choices, const std::string& help) {
@@ -21,30 +21,27 @@ CLI::Option* add_choice(CLI::App& app, const std::string& flag, T& target,
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("--scene", options.scene,
-                 "a scene file, or builtin:NAME[:TRIANGLES]; ^TIMES refines it, @DEGREES turns it")
-      ->capture_default_str();
-  app.add_option("--cameras", options.cameras, "a JSON file of views (see sobb/scene.h)");
-  app.add_option("--view", options.view, "which of the scene's views")->capture_default_str();
+  add_scene_options(app, options.scene, options.cameras, options.view);
   app.add_option("--size", options.size, "trace SIZE x SIZE primary rays and their paths")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
   app.add_option("--threads", options.threads, "threads of every build and trace")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--cell-seconds", options.cell_seconds, "time for the repetitions of a row")
+  app.add_option("--cell-seconds", options.cell_seconds, "time for all repetitions of a row")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   std::map<std::string, sobb_isa> isas;
   for (const std::string& name : isa_choices())
     check(sobb_isa_from_name(name.c_str(), &isas[name]));
   add_choice(app, "--isa", options.isa, isas, "the kernels (default: best)");
-  add_choice(app, "--strategy", options.strategies,
-             {{"k", {SOBB_STRATEGY_K}},
-              {"k2", {SOBB_STRATEGY_K2}},
-              {"k3", {SOBB_STRATEGY_K3}},
-              {"all", {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}}},
-             "of SOBB 32, 48 and 64: k, k2 (default), k3 or all; 128 and 256 take k2");
+  add_choice(
+      app, "--strategy", options.strategies,
+      {{"k", {SOBB_STRATEGY_K}},
+       {"k2", {SOBB_STRATEGY_K2}},
+       {"k3", {SOBB_STRATEGY_K3}},
+       {"all", {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}}},
+      "strategy of SOBB 32, 48 and 64: k, k2 (default), k3 or all; SOBB 128 and 256 take k2");
   add_choice(app, "--layout", options.widths, {{"binary", {2}}, {"wide", {8}}, {"both", {2, 8}}},
              "nodes of two children, of eight, or both (default)");
 }

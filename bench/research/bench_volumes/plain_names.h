@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reports whose rows are named alike in every run: Google Benchmark would add to each name how
-// often the row was repeated, which depends on how long it took.
+// PlainNames is a report whose rows have the same names in every run. Google Benchmark would add to
+// each name how often the row was repeated, which depends on how long it took.
 #pragma once
 
 #include <benchmark/benchmark.h>

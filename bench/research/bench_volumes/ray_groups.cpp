@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the rays and judges hits.
+// Makes the rays, and compares hits with those that all methods must find.
 #include "bench_volumes/ray_groups.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace sobb::bench::volumes {
 namespace {
 
 constexpr uint32_t kBounces = 7;
-constexpr size_t kBruteForceRays = 100;  // of a group
+constexpr size_t kBruteForceRays = 100;  // per group
 
 std::string in_words(const sobb_hit& hit) {
   std::ostringstream words;

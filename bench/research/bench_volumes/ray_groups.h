@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rays of a run: made once, the same for every method, with the hits that all must find.
+// The rays of a run are made once and are the same for every method, as are the hits.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ namespace sobb::bench::volumes {
 struct RayGroup {
   std::string name;
   std::vector<sobb_ray> rays;
-  std::vector<sobb_hit> hits;  // the first method's
+  std::vector<sobb_hit> hits;  // found by the first method
 };
 
 inline constexpr size_t kGroups = 2;
 using RayGroups = std::array<RayGroup, kGroups>;
 
-/// `primary`, and `secondary`: all bounces 1 to 7 of one path a pixel. Throws where a group is
+/// `primary`, and `secondary`: all bounces 1 to 7 of one path per pixel. Throws where a group is
 /// empty.
 RayGroups make_ray_groups(const SceneInput& scene, uint32_t size, const ClosestHits& closest_hits);
 
@@ -30,8 +30,8 @@ RayGroups make_ray_groups(const SceneInput& scene, uint32_t size, const ClosestH
 void expect_same_hits(const std::string& method, const RayGroup& group,
                       const std::vector<sobb_hit>& hits);
 
-/// Compares the group's hits, which @p method found, with brute force: of 100 rays, spread evenly.
-/// Returns how many rays that were; throws where one differs.
+/// Compares the group's hits, which @p method found, with brute force for 100 evenly spread rays.
+/// Returns how many rays it compared; throws where one differs.
 uint64_t expect_brute_force(const std::string& method, const RayGroup& group,
                             const sobb_triangles& triangles, uint32_t threads);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often a row is repeated, by how long it takes once.
+// repetitions() says how often a row is repeated, by how long it takes once.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,16 @@ namespace sobb::bench::volumes {
 
 struct Repetitions {
   int count = 1;
-  int64_t passes = 1;  // timed together, in each
+  int64_t passes = 1;  // in each, timed together
 };
 
-/// Builds and conversions of a large scene take longer than a cell has; passes are what is
-/// compared.
+/// Builds and conversions of a large scene take longer than a row has time for. Passes are what
+/// runs are compared by, so they are repeated in any case.
 inline constexpr int kFewestBuilds = 1;
 inline constexpr int kFewestPasses = 3;
 
-/// `fewest` to 9, as the cell's time allows; where nine take less, each is of several passes.
+/// `fewest` to 9 repetitions, as the row's time allows; where nine take less, each has several
+/// passes.
 inline Repetitions repetitions(double cell_seconds, double pass_seconds, int fewest) {
   constexpr double kMost = 9, kMostPasses = 1e6;
   const double fit = cell_seconds / std::max(pass_seconds, 1e-9);

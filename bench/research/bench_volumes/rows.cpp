@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows' bodies. Google Benchmark does not tell a body which repetition it is, so the rows that
-// report what was measured before count by themselves.
+// The bodies of the rows. Google Benchmark does not tell a body which repetition it runs, so the
+// rows that report earlier measurements count by themselves.
 #include "bench_volumes/rows.h"
 
 #include <benchmark/benchmark.h>

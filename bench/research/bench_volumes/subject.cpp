@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods and their names.
+// Names the methods, and lists what a run converts.
 #include "bench_volumes/subject.h"
 
 #include <cctype>
 
+#include "circumstances.h"
+
 namespace sobb::bench::volumes {
 namespace {
 
-// Beyond it the triples of k3 are too many for whole hierarchies, so one strategy serves to
-// compare.
+// With more planes k3 has too many triples for whole hierarchies, so only k2 is compared.
 constexpr uint32_t kMostPlanesOfAnyStrategy = 64;
 
-// "SOBB 64i" is sobb64i.
+// "SOBB 64i" becomes sobb64i.
 std::string method_name(const study::Method& method) {
   std::string name;
   for (const char c : method.name) {
     if (c != ' ') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return name;
-}
-
-std::string strategy_name(sobb_strategy strategy) {
-  return strategy == SOBB_STRATEGY_K ? "k" : strategy == SOBB_STRATEGY_K3 ? "k3" : "k2";
 }
 
 }  // namespace

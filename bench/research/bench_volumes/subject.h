@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One method in one layout: a hierarchy, and what was found of it before the rows are timed.
+// Subject is one method in one layout: a hierarchy, with what is counted before the rows are timed.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace sobb::bench::volumes {
 
-/// Means over the rays of a group, and how long its pass took.
+/// What a ray tests, as means over a group, and how long its pass took.
 struct Work {
   double nodes = 0;
   double volumes = 0;
@@ -26,13 +26,13 @@ struct Subject {
   study::Areas areas;
   std::array<Work, kGroups> work{};
 
-  /// METHOD/LAYOUT[/STRATEGY], the end of its rows' names.
+  /// METHOD/LAYOUT[/STRATEGY], which ends its rows' names.
   std::string name() const;
 };
 
 std::string layout_name(uint32_t width);
 
-/// Every method, in the paper's order, by the strategies that the options name.
+/// The settings of every method, in the paper's order, with the strategies that the options name.
 std::vector<study::ConvertSettings> settings_of(const Options& options, uint32_t width);
 
 }  // namespace sobb::bench::volumes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Builds, converts, makes the rays and compares.
+// The workbench builds, converts, makes the rays and compares the hits.
 #include "bench_volumes/workbench.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ Workbench::Workbench(const Options& options)
   }
 }
 
-// Anew as often as a row is repeated: later there would be two in memory.
+// Builds as often as a row is repeated. Building later would hold two topologies in memory.
 void Workbench::build_topology() {
   const auto memory = std::make_shared<Memory>();
   int count = 1;
@@ -45,7 +45,7 @@ void Workbench::add_subject(const study::ConvertSettings& settings) {
   count_work(subjects_.back());
 }
 
-// By the first method, which all others are compared with.
+// The first method traces the paths; all others are compared with its hits.
 void Workbench::make_rays() {
   const Subject& first = subjects_.front();
   const auto hits_of = [&](const std::vector<sobb_ray>& rays) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that the rows share: made, and proved to agree, before the first of them is timed.
+// Workbench holds all that the rows share. It makes everything, and compares all hits, before the
+// first row is timed.
 #pragma once
 
 #include <memory>
@@ -25,8 +26,8 @@ struct TopologyTimes {
 
 class Workbench {
  public:
-  /// Throws, naming method and ray, where a method's hits are not the first method's, or those not
-  /// brute force's.
+  /// Throws, naming method and ray, where a method's hits differ from the first method's, or those
+  /// from brute force's.
   explicit Workbench(const Options& options);
 
   const Options& options() const { return options_; }
@@ -37,12 +38,12 @@ class Workbench {
   const std::vector<Subject>& subjects() const { return subjects_; }
   uint64_t brute_force_rays() const { return brute_force_rays_; }
 
-  /// The AABB's of that width.
+  /// The AABB's subject of that width.
   const Subject& boxes(uint32_t width) const;
 
   /// Milliseconds of one more conversion, which is not kept.
   double convert_anew(const Subject& subject) const;
-  /// Seconds of one pass. Throws where its hits are not the group's.
+  /// Seconds of one pass. Throws where its hits differ from the group's.
   double trace(const Subject& subject, const RayGroup& group);
 
  private:

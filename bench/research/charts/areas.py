@@ -21,7 +21,7 @@ KINDS = ("leaf", "small inner", "large inner")
 
 
 def area_means(scenes, group):
-    """By kind of node: each method's area over the AABB's, the mean over the scenes."""
+    """Each method's area over the AABB's by kind of node, as means over the scenes."""
     means = {}
     for kind in range(len(KINDS)):
         ratios = [scene[group][kind]["ratio"] for scene in scenes]
@@ -32,8 +32,8 @@ def area_means(scenes, group):
 def draw(report, out):
     scenes = report["scenes"]
     for group, title in (
-        ("sampled", "Area over the AABB's, 10,000 nodes a scene"),
-        ("optimised", "The same with free normals, 1,000 nodes of each kind a scene"),
+        ("sampled", "Area over the AABB's, 10,000 nodes per scene"),
+        ("optimised", "The same with free normals, 1,000 nodes of each kind per scene"),
     ):
         means = area_means(scenes, group)
         print_table(

@@ -19,7 +19,7 @@ def draw(report, out):
     titles = ("a basis for each child", "a basis shared by the node's children")
     for i, title in enumerate(titles):
         print_table(
-            f"Clipping, {title}: nodes, leaves, triangles a ray without -> with",
+            f"Clipping, {title}: nodes, leaves, triangles per ray without -> with",
             ["scene", *(f"width {entry['width']}" for entry in scenes[0]["widths"])],
             [
                 [
@@ -40,8 +40,8 @@ def draw(report, out):
     ns_step = [scene["library"][1]["ns_step"] for scene in scenes]
     wide = [saved(scene["widths"][2]["rules"][1]) for scene in scenes]
     print_table(
-        "Clipping: what it may cost a node, with the library's 8-wide nodes",
-        ["scene", "ns a step", "saved", "break-even ns"],
+        "Clipping: what it may cost per node, with the library's 8-wide nodes",
+        ["scene", "ns per step", "saved", "break-even ns"],
         [
             [short(scene["scene"]), f"{ns:.0f}", f"{part:.1f} %", f"{ns * part / 100:.1f}"]
             for scene, ns, part in zip(scenes, ns_step, wide, strict=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the charts and tables of all questions have in common."""
+"""Parts that the charts and tables of all questions share."""
 
 import math
 
@@ -13,13 +13,13 @@ GRID = "#DDDDDD"
 
 
 def mean(values):
-    """The geometric mean, as ratios want."""
+    """The geometric mean, which suits ratios."""
     values = list(values)
     return math.exp(sum(map(math.log, values)) / len(values))
 
 
 def short(scene):
-    """A scene's name without where it comes from."""
+    """The name of a scene without its prefix or ending."""
     return scene.removeprefix("builtin:").replace(".glb", "")
 
 
@@ -41,7 +41,7 @@ def print_table(title, head, rows):
 
 
 def dot_panel(axis, title, labels, series, reference=None):
-    """Marks in rows. `series` is a list of (name, colour, values), None where there is none."""
+    """Draws marks in rows. `series` lists (name, colour, values); a value may be None."""
     axis.set_title(title, fontsize=10, color=INK, loc="left")
     axis.set_yticks(range(len(labels)), list(map(pretty, labels)), fontsize=9)
     axis.set_ylim(len(labels) - 0.5, -0.5)

@@ -63,9 +63,9 @@ def draw(report, out):
         series = [
             ("inner area", BLUE, means["inner_area"]),
             ("leaf area", ORANGE, means["leaf_area"]),
-            ("volumes a ray", GREEN, means["volumes"]),
-            ("triangles a ray", RED, means["triangles"]),
+            ("volumes per ray", GREEN, means["volumes"]),
+            ("triangles per ray", RED, means["triangles"]),
         ]
-        dot_panel(axis, f"{width} children a node", rules, series, 1)
+        dot_panel(axis, f"{width} children per node", rules, series, 1)
         axis.set_xlabel("over a basis for each child by k3", fontsize=9)
     save(figure, axes[0], 4, out)

@@ -18,7 +18,7 @@ TURNED = "city, 8 turns"
 
 
 def table_rows(scenes):
-    """By scene (the turned towns as one) and table: ratios to the AABB's figures."""
+    """Ratios to the AABB's figures by scene (the turned towns as one) and table."""
     groups = {}
     for scene in scenes:
         turned = scene["scene"].startswith("builtin:city:60000@")
@@ -55,7 +55,7 @@ def draw(report, out):
             for origin, _ in origins
         ]
         print_table(
-            f"k = {k}: inner area / leaf area; wide volumes / triangles a ray, over the AABB's",
+            f"k = {k}: inner area / leaf area; wide volumes / triangles per ray, over the AABB's",
             ["scene", *(origin for origin, _ in origins)],
             [
                 [
@@ -73,7 +73,7 @@ def draw(report, out):
     panels = (
         ("inner_area", "area of inner nodes, binary"),
         ("leaf_area", "area of leaves, binary"),
-        ("wide triangles", "triangles a ray, 8-wide"),
+        ("wide triangles", "triangles per ray, 8-wide"),
     )
     for axis, (key, title) in zip(axes, panels, strict=True):
         series = [

@@ -14,7 +14,7 @@ from charts.drawing import (
     short,
 )
 
-# What makes a row of the report: splits, leaves, collapse.
+# Splits, leaves and collapse identify a row of the report.
 HIERARCHIES = {
     ("embree", "embree", "greedy-aabb"): "today's",
     ("embree", "embree", "greedy-sobb"): "greedy by SOBB",
@@ -36,13 +36,13 @@ HAIR = ("hairball", "wool", "sintel-hair")
 
 
 def label_of(name):
-    """Of a binary hierarchy that of the wide one that is collapsed from it as today."""
+    """The label of a hierarchy. A binary one has that of its wide one with today's collapse."""
     splits, leaves, collapse = name
     return HIERARCHIES[splits, leaves, "greedy-aabb" if collapse == "none" else collapse]
 
 
 def hierarchies_of(scene, layout):
-    """By splits, leaves and collapse: the report's rows of a layout."""
+    """The rows that a report has of a layout, by splits, leaves and collapse."""
     return {
         (row["splits"], row["leaves_by"], row["collapse"]): row
         for row in scene["hierarchies"]
@@ -51,7 +51,7 @@ def hierarchies_of(scene, layout):
 
 
 def over_todays(scene, layout):
-    """By splits, leaves and collapse: figures over those of the library's own hierarchy."""
+    """Figures over those of the first, today's, hierarchy, by splits, leaves and collapse."""
     rows = hierarchies_of(scene, layout)
     own = next(iter(rows.values()))
     ratios = {}
@@ -86,7 +86,7 @@ def draw(report, out):
         )
     wide = {short(scene["scene"]): over_todays(scene, "wide") for scene in scenes}
     print_table(
-        "Topologies, 8-wide, by scene: nodes, blocks a secondary ray; rays a second",
+        "Topologies, 8-wide, by scene: nodes, blocks per secondary ray; rays per second",
         ["hierarchy", *wide],
         [
             [
@@ -108,7 +108,7 @@ def draw(report, out):
         )
 
     print_table(
-        "Topologies: depth, mean depth of leaves, binary and 8-wide; processor ms a million",
+        "Topologies: depth, mean depth of leaves, binary and 8-wide; ms per million triangles",
         ["hierarchy", "layout", "deepest", "mean depth", "splits", "areas and collapse"],
         [
             [
@@ -136,9 +136,9 @@ def draw(report, out):
     )
     figure, axes = figure_of(3, len(HIERARCHIES), 12)
     panels = (
-        ("secondary nodes", "nodes a secondary ray"),
-        ("secondary blocks", "triangle blocks a secondary ray"),
-        ("secondary Mrays/s", "secondary rays a second"),
+        ("secondary nodes", "nodes per secondary ray"),
+        ("secondary blocks", "triangle blocks per secondary ray"),
+        ("secondary Mrays/s", "secondary rays per second"),
     )
     for axis, (key, title) in zip(axes, panels, strict=True):
         series = [

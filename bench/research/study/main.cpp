@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sobb_study. Exit code: 0 when the question is answered, 1 when not, 2 for wrong usage.
+// sobb_study answers questions about bounding volumes. Its exit code is 0 when the question is
+// answered, 1 when not, 2 for wrong usage.
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -28,18 +29,20 @@ constexpr Question kQuestions[] = {
 
 void add_options(CLI::App& app, StudyOptions& options) {
   app.add_option("--scene", options.scenes,
-                 "a scene file, or builtin:NAME[:TRIANGLES]; then [^TIMES][@DEGREES]")
+                 "a scene file or builtin:NAME[:TRIANGLES]; ^TIMES refines it, @DEGREES turns it")
       ->required();
-  app.add_option("--directions", options.directions, "a file of unit vectors, a line `x y z` each");
-  app.add_option("--out", options.out, "write the JSON there, not to standard output");
-  app.add_option("--threads", options.threads, "0: all")->capture_default_str();
-  app.add_option("--size", options.size, "a path for each of SIZE x SIZE pixels")
+  app.add_option("--directions", options.directions,
+                 "a file of unit vectors, one line `x y z` per vector");
+  app.add_option("--out", options.out, "write the JSON to this file, not to standard output");
+  app.add_option("--threads", options.threads, "threads; 0: all")->capture_default_str();
+  app.add_option("--size", options.size, "trace one path for each of SIZE x SIZE pixels")
       ->check(CLI::Range(1, 8192))
       ->capture_default_str();
-  app.add_option("--nodes", options.nodes, "nodes to sample a scene")
+  app.add_option("--nodes", options.nodes, "nodes to sample per scene")
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
-  app.add_option("--optimised-nodes", options.optimised_nodes, "of each kind, with free normals")
+  app.add_option("--optimised-nodes", options.optimised_nodes,
+                 "nodes of each kind to find free normals for")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
 }

@@ -10,6 +10,7 @@
 #include "circumstances.h"
 
 namespace sobb::study {
+
 void write_report(const StudyOptions& options, const char* question, const Json& scenes) {
   const Json report = {{"question", question},
                        {"sobb", bench::library_version()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command line of sobb_study, and its subcommands: a question of docs/study.md each.
+// The command line of sobb_study, and its subcommands, each a question of docs/study.md.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 namespace sobb::study {
 
 struct StudyOptions {
-  std::vector<std::string> scenes;      // each as sobb_scene_load() takes it
+  std::vector<std::string> scenes;      // as sobb_scene_load() takes them
   std::vector<std::string> directions;  // files of direction tables, lines `x y z`
-  std::string out;                      // the JSON's file; empty: standard output
+  std::string out;                      // the file for the JSON; empty: standard output
   uint32_t threads = 0;                 // 0: as many as TBB gives
-  uint32_t size = 128;                  // a path for each of size x size pixels
-  uint32_t nodes = 10000;               // sampled a scene
-  uint32_t optimised_nodes = 1000;      // of each kind, with free normals
+  uint32_t size = 128;                  // one path for each of size x size pixels
+  uint32_t nodes = 10000;               // sampled per scene
+  uint32_t optimised_nodes = 1000;      // per kind, to find free normals for
 };
 
-// Each writes its JSON and returns the program's exit code. They throw sobb::Error and
+// Each function writes its JSON and returns the program's exit code. They throw sobb::Error and
 // std::runtime_error.
 int areas(const StudyOptions& options);
 int tables(const StudyOptions& options);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene of the study: its triangles, checked, and rays that do not depend on any hierarchy.
+// StudyScene holds the checked triangles of a scene, and makes rays that depend on no hierarchy.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ class StudyScene {
  public:
   StudyScene(const std::string& source, const StudyOptions& options);
 
-  const std::string& name() const { return name_; }  // a file's without its folder
+  const std::string& name() const { return name_; }  // a file's name without its folder
   const sobb_triangles& triangles() const { return triangles_; }
   const Mesh& mesh() const { return *mesh_; }
   const MeshSummary& summary() const { return summary_; }
@@ -30,9 +30,9 @@ class StudyScene {
   const Scheduler& scheduler() const { return scheduler_; }
   Memory& memory() { return *memory_; }
 
-  // A binary topology of medium quality, as the library builds.
+  // Builds a binary topology of medium quality, as the library does.
   Topology build_topology(const Frame& frame = Frame());
-  // Of the first view, size x size.
+  // One ray for each of size x size pixels of the first view.
   std::vector<sobb_ray> primary_rays(uint32_t size) const;
   // All bounces 1 to 7 of a path tracer, one path for each of size x size pixels of the first view.
   std::vector<sobb_ray> secondary_rays(uint32_t size) const;
@@ -51,7 +51,7 @@ class StudyScene {
   MeshSummary summary_{};
 };
 
-// The answer of a question about each scene, in turn: only one is held at a time.
+// Answers a question about each scene in turn. Only one scene is held at a time.
 template <class Answer>
 Json for_each_scene(const StudyOptions& options, const Answer& answer) {
   Json scenes = Json::array();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axis-aligned box. Included once for each Highway target.
+// Aabb is the axis-aligned box, 24 bytes.
 #if defined(SOBB_RESEARCH_VOLUMES_AABB_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_AABB_INL_H
 #undef SOBB_RESEARCH_VOLUMES_AABB_INL_H

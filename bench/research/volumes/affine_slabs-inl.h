@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ray test of three slabs of any normals, 48 bytes a child. Included once for each Highway
-// target.
+// The ray test of three slabs of any normals takes 48 bytes per child.
 //
 // For a row s = [m, w], m = rho n: so = m . o + w, sd = m . d, and the ray is within the slab for t
-// from the lesser to the greater of (0 - so) / sd and (1 - so) / sd. The error of ray_table-inl.h,
-// e along a unit normal, is rho e here; |m_x| + |m_y| + |m_z| is no less than rho.
+// from the lesser to the greater of (0 - so) / sd and (1 - so) / sd. The error of
+// trace/nodes/ray_table-inl.h, e along a unit normal, is rho e here; |m_x| + |m_y| + |m_z| is no
+// less than rho.
 #if defined(SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H
 #undef SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H
@@ -25,7 +25,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
 
-// The ray's side: nothing is precomputed.
+// The ray's side of the test. Nothing is precomputed.
 struct AffineRay {
   float origin[3];
   float direction[3];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three slabs of any normals in 48 bytes: the parallelepiped as the unit cube of an affine map
+// AffineSlabs is three slabs of any normals in 48 bytes, the unit cube of an affine map
 // (EG25, section 5: s = rho [n, -pmin], rho = 1 / max(pmax - pmin, epsilon)).
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace sobb::study {
 
 struct AffineSlabs {
-  float row[3][4];  // a point p, relative to the centre, is within where 0 <= row . [p, 1] <= 1
+  float row[3][4];  // a point p, relative to the centre, is inside where 0 <= row . [p, 1] <= 1
 
-  // Holds every p, |p| <= radius, with lower <= n . p <= upper. With u = 2^-24, rounding rho n
-  // moves n . p by u R at most, rounding rho pmin by u R, rounding rho by u of the width: 8 u R on
-  // either side cover all of it.
+  // Makes the slab hold every p, |p| <= radius, with lower <= n . p <= upper. With u = 2^-24 and R
+  // the radius, rounding rho n moves n . p by u R at most, rounding rho pmin by u R, rounding rho
+  // by u of the width: 8 u R on either side cover all of it.
   void set(int slab, const Direction& n, float lower, float upper, float radius) {
     const float margin = 8 * 0x1p-24F * radius;
     const float low = lower - margin;

@@ -46,8 +46,8 @@ class Ditetrahedron {
   const Point3* basis() const { return basis_; }
 
  private:
-  // The base triangle: the pair of extremal points furthest apart, and the point furthest from
-  // their line. Then the points furthest above and below it make two tetrahedra.
+  // The base triangle consists of the two extremal points furthest apart and the point furthest
+  // from their line. The points furthest above and below it make two tetrahedra.
   void search(const ExtremalPoints& extremal) {
     const Point3* far[2] = {};
     float furthest = -1;
@@ -93,7 +93,7 @@ class Ditetrahedron {
     }
   }
 
-  // The points lie on a line: any two directions across it serve.
+  // The points lie on a line, so any two directions across it serve.
   void try_along(const Point3& edge) {
     const Point3 helper = std::fabs(edge.x) < 0.6F ? Point3{1, 0, 0} : Point3{0, 1, 0};
     Point3 normal = cross_product(edge, helper);

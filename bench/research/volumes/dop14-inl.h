@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 14-DOP: seven slabs, along the axes and the box's diagonals. Included once for each Highway
-// target.
+// Dop14 is the 14-DOP: seven slabs, along the axes and the diagonals of a cube.
 #if defined(SOBB_RESEARCH_VOLUMES_DOP14_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_DOP14_INL_H
 #undef SOBB_RESEARCH_VOLUMES_DOP14_INL_H

@@ -20,7 +20,7 @@ class Polygon {
                 {half_side, half_side},
                 {-half_side, half_side}} {}
 
-  // Keeps what has a x + b y <= c.
+  // Keeps the points with a x + b y <= c.
   void clip(double a, double b, double c) {
     double value[kMost];
     bool cuts = false;

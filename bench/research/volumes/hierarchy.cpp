@@ -15,7 +15,7 @@
 namespace sobb::study {
 namespace {
 
-constexpr uint64_t kChunk = 1024;  // rays a task
+constexpr uint64_t kChunk = 1024;  // rays per task
 
 // Products of lengths, areas and their reciprocals stay far from the ends of a float within these.
 void check_radius(float radius) {

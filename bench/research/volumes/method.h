@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods of the comparison: the bounding volumes of EG25's table, by their names there.
+// kMethods lists the methods of the comparison: the bounding volumes of EG25's table, by their
+// names there.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ struct Method {
   VolumeKind volume;
   uint32_t k;  // planes of the k-DOP that the volume is chosen from; 0 where there is none
 
-  // Whether the volume is chosen among the triples of a table: by a strategy.
+  // True where a strategy chooses the volume among the triples of a table.
   constexpr bool has_strategy() const {
     return volume == VolumeKind::kSobbDirect || volume == VolumeKind::kSobbIndexed;
   }

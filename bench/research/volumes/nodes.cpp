@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of every volume, compiled for every instruction set.
+// This file compiles the nodes of every volume for every instruction set.
 #include "volumes/nodes.h"
 
 #include "base/instruction_sets.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a hierarchy, whatever their volume, width and instruction set.
+// Nodes is the interface to the nodes of a hierarchy, whatever their volume, width and instruction
+// set.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,13 @@ struct Hierarchy::Nodes {
 
   virtual void convert(const Scheduler& scheduler) = 0;
   virtual uint64_t bytes() const = 0;
-  // Not relative to anything, summed in the order of the file.
+  // Absolute sums, in the order of the nodes.
   virtual Areas areas(const Scheduler& scheduler) const = 0;
   virtual uint64_t count_leaks() const = 0;
   virtual uint64_t intersect(const sobb_ray* rays, uint64_t count, sobb_hit* hits,
                              sobb_count* counts) const = 0;
 
-  // Not converted yet. `isa` is resolved.
+  // Makes nodes that are not converted yet. `isa` is resolved.
   static std::unique_ptr<Nodes> make(const SharedTopology& topology,
                                      const ConvertSettings& settings, sobb_isa isa);
 };

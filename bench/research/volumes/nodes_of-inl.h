@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of one volume and width: made bottom-up, measured, traced. Included once for each
-// Highway target.
+// NodesOf are the nodes of one volume and width. It makes them bottom-up, measures and traces them.
 #if defined(SOBB_RESEARCH_VOLUMES_NODES_OF_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_NODES_OF_INL_H
 #undef SOBB_RESEARCH_VOLUMES_NODES_OF_INL_H
@@ -29,7 +28,7 @@ namespace {
 
 using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
 
-// What trace_ray is told of a volume's nodes.
+// The volumes of a node, as trace_rays() asks for them.
 template <Volume V, int W>
 struct VolumesOf {
   static constexpr int kWidth = W;

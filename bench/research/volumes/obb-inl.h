@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The oriented box, by the ditetrahedron. Included once for each Highway target.
+// Obb is the oriented box, whose orientation the ditetrahedron chooses, 48 bytes.
 #if defined(SOBB_RESEARCH_VOLUMES_OBB_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_OBB_INL_H
 #undef SOBB_RESEARCH_VOLUMES_OBB_INL_H
@@ -22,8 +22,8 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 using namespace sobb::HWY_NAMESPACE;  // the tracer's kernels for this target
 
-// The extents lower[j] <= n_j . (p - c) <= upper[j] of triangles, rounding included: the difference
-// and the product err by u |p| and 3 u |p| at most, and |p| is within the radius.
+// Finds the extents lower[j] <= n_j . (p - c) <= upper[j] of triangles, rounding included:
+// difference and product err by at most u |p| and 3 u |p|, and |p| is at most the radius.
 inline void extents_along(const Tables& tables, const TrianglesBelow& below,
                           const Direction normal[3], float lower[3], float upper[3]) {
   const hn::CappedTag<float, 4> d;  // a block's triangles
@@ -67,7 +67,7 @@ struct Obb {
 
   AffineSlabs slabs;
 
-  // The ditetrahedron judges by 14 points; over all triangles the axes of space may be better.
+  // The ditetrahedron judges by 14 points. For all triangles the axes of space may be better.
   static Obb fit(const Tables& tables, const Hull& hull, const TrianglesBelow& below) {
     Direction basis[3];
     ditetrahedron_basis(hull, basis);

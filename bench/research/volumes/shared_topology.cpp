@@ -16,7 +16,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-// Calls visit(its references, its first block) for every leaf of a part.
+// Calls visit(references, first block) for every leaf of a part.
 template <class Visit>
 void for_leaves(const Treelet& part, const References& references, const Visit& visit) {
   for (const WideNode& node : part.nodes) {

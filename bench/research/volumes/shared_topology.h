@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every method of a comparison has in common: the triangles, which of them lie together in
-// leaves, and which leaves in nodes.
+// SharedTopology is what every method of a comparison has in common: the triangles, which of them
+// lie together in leaves, and which leaves in nodes.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@
 
 namespace sobb::study {
 
-// Built once a scene at medium quality. Immutable; any number of threads may read it.
+// Built once per scene, at medium quality. Immutable; any number of threads may read it.
 class SharedTopology {
  public:
-  // Borrows the triangles. Errors as sobb_build() says.
+  // Borrows the triangles. Fails as sobb_build() does.
   SharedTopology(const sobb_triangles& triangles, const Scheduler& scheduler,
                  std::shared_ptr<Memory> memory);
 
@@ -30,7 +30,7 @@ class SharedTopology {
   struct Layout {
     WideTopology wide;
     Image block_bytes;
-    double ms = 0;  // wall clock: collapse and blocks
+    double ms = 0;  // wall clock time of collapse and blocks
 
     explicit Layout(WideTopology&& wide) : wide(std::move(wide)) {}
     std::span<const TriangleBlock> blocks() const {
@@ -39,7 +39,7 @@ class SharedTopology {
   };
   const Layout& layout(uint32_t width) const;  // 2 or 8
 
-  double topology_ms() const { return topology_ms_; }  // boxes and binary nodes
+  double topology_ms() const { return topology_ms_; }  // for boxes and binary nodes
   double layout_ms(uint32_t width) const { return layout(width).ms; }
   uint32_t depth(uint32_t width) const { return layout(width).wide.depth; }
   uint64_t node_count(uint32_t width) const { return layout(width).wide.node_count; }

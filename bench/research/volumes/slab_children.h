@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The planes of the N slabs of every child of a node, structure of arrays.
+// SlabChildren holds the planes of the N slabs of every child of a node, as a structure of arrays.
 #pragma once
 
 #include <cstdint>

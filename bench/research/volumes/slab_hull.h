@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The k-DOP that volumes are taken from, for tables of up to N directions.
+// SlabHull is the k-DOP that volumes are taken from, for tables of up to N directions.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace sobb::study {
 
-// Conservative slabs lower <= n . (p - c) <= upper, as Kdop has them.
+// The slabs lower <= n . (p - c) <= upper are conservative, as those of Kdop are.
 template <uint32_t N>
 struct alignas(64) SlabHull {
   float lower[N];
@@ -34,7 +34,7 @@ struct alignas(64) SlabHull {
     }
   }
 
-  // The triple of least area by the strategy, or the axes.
+  // Chooses the triple of least area by the strategy, or the axes where they have less.
   TripleChoice choose(const Tables& tables) const {
     alignas(64) float width[N];
     for (uint32_t k = 0; k < N; ++k) width[k] = (upper[k] - lower[k]) * tables.scale;

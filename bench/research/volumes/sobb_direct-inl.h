@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The skewed oriented box with its planes in place, 48 bytes; from a table of up to N directions.
-// Included once for each Highway target.
+// SobbDirect is the skewed oriented box that holds its normals, 48 bytes. They come from a table of
+// up to N directions.
 #if defined(SOBB_RESEARCH_VOLUMES_SOBB_DIRECT_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_SOBB_DIRECT_INL_H
 #undef SOBB_RESEARCH_VOLUMES_SOBB_DIRECT_INL_H

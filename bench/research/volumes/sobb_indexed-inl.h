@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The skewed oriented box with indices into the direction table, 26 bytes. Included once for each
-// Highway target.
+// SobbIndexed is the skewed oriented box with indices into the direction table, 26 bytes.
 #if defined(SOBB_RESEARCH_VOLUMES_SOBB_INDEXED_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_SOBB_INDEXED_INL_H
 #undef SOBB_RESEARCH_VOLUMES_SOBB_INDEXED_INL_H

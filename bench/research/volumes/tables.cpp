@@ -6,7 +6,7 @@
 namespace sobb::study {
 namespace {
 
-// The axes and the box's four diagonals.
+// The axes and the four diagonals of a cube.
 constexpr float kThird = 0.57735026F;  // 1 / sqrt 3
 constexpr Direction kDop14[] = {{1, 0, 0},
                                 {0, 1, 0},

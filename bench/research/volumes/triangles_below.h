@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles below a node, where they lie.
+// TrianglesBelow says where the triangles below a node lie.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bounding volume is to the comparison. Each is one file, NAME-inl.h, compiled for every
-// instruction set.
+// The concept Volume says what the comparison asks of a bounding volume. Each volume is one file,
+// NAME-inl.h, compiled for every instruction set.
 #pragma once
 
 #include <concepts>
@@ -12,13 +12,14 @@
 namespace sobb::study {
 
 // A volume V has
-//   V::Hull         what nodes know of their triangles: fit(tables, points, count) to a leaf's
-//                   vertices, merge(other) into the parent's
-//   V::fit          the volume of a hull, and of the triangles below where the hull does not do
-//   area, contains  its surface area; whether a point, relative to the centre, is within: exactly
-//   V::Children<W>  those of a node, structure of arrays: set(i, volume), get(i)
+//   V::Hull         what a node remembers of its triangles: fit(tables, points, count) bounds a
+//                   leaf's vertices, merge(other) adds a child's hull to its parent's
+//   V::fit          makes the volume from a hull, or from the triangles below where the hull does
+//                   not suffice
+//   area, contains  its surface area; whether a point, relative to the centre, is exactly inside
+//   V::Children<W>  the volumes of a node, as a structure of arrays: set(i, volume), get(i)
 //   V::Ray, V::clip the ray's side of the test, and the test of as many children as a vector has
-//                   lanes: it clips their intervals (trace/node_test-inl.h), and is conservative
+//                   lanes: it clips their intervals (trace/nodes/node_test-inl.h) conservatively
 template <class V>
 concept Volume = requires(const V& volume, const Tables& tables, typename V::Hull& hull,
                           const RelativePoint* points, const TrianglesBelow& below,

@@ -12,10 +12,11 @@
 namespace sobb::study {
 namespace {
 
-constexpr int kDimensions = 6;  // two a normal
+constexpr int kDimensions = 6;  // two per normal
 constexpr int kRandomStarts = 4;
 constexpr int kMostSteps = 300;
-constexpr double kSteps[] = {0.25, 0.05, 0.01};  // of the first simplex of each search, in radians
+constexpr double kSteps[] = {0.25, 0.05,
+                             0.01};  // size of the first simplex of each search, in radians
 constexpr double kTolerance = 1e-5;
 
 using Offsets = std::array<double, kDimensions>;
@@ -26,7 +27,7 @@ Direction unit(const Vector& v) {
           static_cast<float>(v[2] / norm)};
 }
 
-// Normals near some others, as offsets along two tangents of each.
+// Coordinates of normals near some others: offsets along two tangents of each.
 class Chart {
  public:
   explicit Chart(const Normals& origin) {

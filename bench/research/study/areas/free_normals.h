@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The skewed box of least area with any three normals, by numerical search: what tables of
-// directions are measured against.
+// A numerical search finds the skewed box of least area with any three normals. Tables of
+// directions are measured against it.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@ namespace sobb::study {
 
 using Normals = std::array<Direction, 3>;
 
-// The area of the points' skewed box with these normals; infinite for normals flatter than a table
-// may use (kSmallestDeterminant).
+// The area of the points' skewed box with these normals; infinite where the normals are closer to a
+// plane than a table allows (kSmallestDeterminant).
 double area_with(const PointSet& points, const Normals& normals);
 
 // The least area that local searches from the given normals, and from some random ones, find.

@@ -9,7 +9,7 @@ NodeKind kind_of(const TopologyNode& node) {
   return node.count <= kLargestSmallNode ? NodeKind::kSmallInner : NodeKind::kLargeInner;
 }
 
-// visit(node) for every node but the root, parents first.
+// Calls visit(node) for every node but the root, parents first.
 template <class Visit>
 void for_nodes(const Topology& topology, const Visit& visit) {
   for (const NodePair& pair : topology.pairs()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes of a binary topology, drawn in proportion to the area of their boxes: the mean over a
-// sample of a volume's area over its box's is then the ratio of the sums over all nodes, which is
-// what the surface area heuristic, and the paper's table, count.
+// sample_nodes() draws nodes of a binary topology in proportion to the area of their boxes. The
+// mean ratio of a volume's area to its box's is then the ratio of the sums over all nodes, which
+// the surface area heuristic and the paper's table count.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ namespace sobb::study {
 enum class NodeKind { kLeaf, kSmallInner, kLargeInner };
 inline constexpr std::array kNodeKinds{NodeKind::kLeaf, NodeKind::kSmallInner,
                                        NodeKind::kLargeInner};
-inline constexpr uint64_t kLargestSmallNode = 64;  // triangles below it
+inline constexpr uint64_t kLargestSmallNode = 64;  // triangles below the node
 
 std::string_view name_of(NodeKind kind);
 
 struct SampledNode {
   const TopologyNode* node;
-  uint32_t times;  // drawn
+  uint32_t times;  // how often it was drawn
 };
 
 struct NodeSample {
@@ -31,7 +31,7 @@ struct NodeSample {
   std::vector<SampledNode> nodes;
 };
 
-// Systematic sampling in the order of the tree: spread over it, and without random numbers. Nodes
+// Samples systematically in the order of the tree: spread over it, without random numbers. Nodes
 // of more than `largest` triangles are left out.
 NodeSample sample_nodes(const Topology& topology, NodeKind kind, uint32_t draws, uint64_t largest);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vertices below a node, for widths along any direction.
+// PointSet holds the vertices below a node, and measures their width along any direction.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class PointSet {
   // node's size, not to the scene's.
   PointSet(const Mesh& mesh, const Topology& topology, const TopologyNode& node);
 
-  // max n . p - min n . p, n of unit length.
+  // max n . p - min n . p; n has unit length.
   double width(const Direction& n) const;
 
   size_t size() const { return size_; }

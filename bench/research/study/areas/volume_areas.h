@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The areas that every volume of the paper has around the same points.
+// VolumeAreas measures the area that every volume of the paper has around the same points.
 #pragma once
 
 #include <deque>
@@ -20,12 +20,13 @@ class VolumeAreas {
  public:
   VolumeAreas(const MeshSummary& summary, std::pmr::memory_resource& memory);
 
-  // AABB, 14-DOP, OBB, then SOBB 32 to 256, each by k, k2, k3, and by k2 or the axes.
+  // AABB, 14-DOP, OBB, then SOBB 32 to 256, each by k, k2, k3, and by the better of k2 and the
+  // axes.
   const std::vector<std::string>& names() const { return names_; }
 
   struct Areas {
     std::vector<double> by_method;
-    std::vector<Normals> normals;  // the best of some: where a search may start
+    std::vector<Normals> normals;  // of the best volumes, where a search may start
   };
   Areas measure(const PointSet& points) const;
 
@@ -38,7 +39,7 @@ class VolumeAreas {
 
   std::vector<std::string> names_;
   const BoundsKernels& kernels_;
-  Tables dop14_;  // whose extremal points the OBB is made of
+  Tables dop14_;  // the OBB is made of its extremal points
   std::deque<Table> tables_;
 };
 

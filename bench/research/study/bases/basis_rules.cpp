@@ -38,8 +38,8 @@ BasisChooser::BasisChooser(std::span<const Direction> directions, const Tree& tr
   find_costs();
 }
 
-// Of a leaf its blocks; of a node one test and, by the areas of the children's own volumes over
-// its, theirs.
+// A leaf costs its blocks. A node costs one test, and its children's costs, each times the ratio of
+// the child's area to the node's.
 void BasisChooser::find_costs() {
   std::vector<float> area(tree_.children.size());
   scheduler_.for_ranges(area.size(), kGrain, [&](uint64_t begin, uint64_t end) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to choose the bases of a tree's children: one each, or one for all children of a node.
+// Rules choose the bases of a tree's children: one for each child, or one for all children of a
+// node.
 #pragma once
 
 #include <cstdint>
@@ -14,30 +15,30 @@
 namespace sobb::study {
 
 enum class BasisFrom {
-  kEachChild,       // least area of the child alone
-  kAxes,            // no choice
-  kAverageExtents,  // least area of a volume with the average of the children's widths (PG26)
-  kSumOfAreas,      // least sum of the children's areas
-  kSumOrAxes        // the same, but the axes where they are no worse: the library's rule
+  kEachChild,       // the least area of the child alone
+  kAxes,            // always the axes
+  kAverageExtents,  // the least area of a volume with the average of the children's widths (PG26)
+  kSumOfAreas,      // the least sum of the children's areas
+  kSumOrAxes        // the least sum, or the axes where they are no worse
 };
 
 struct BasisRule {
   BasisFrom from;
   sobb_strategy strategy;
-  // Whether children weigh by the cost of what is below them, by the surface area heuristic.
+  // True where children weigh by the cost of what is below them (surface area heuristic).
   bool weighted;
 
   std::string name() const;
 };
 
-// Chooses for trees whose k-DOPs were fitted with one table.
+// BasisChooser chooses for a tree whose k-DOPs were fitted with one table.
 class BasisChooser {
  public:
   BasisChooser(std::span<const Direction> directions, const Tree& tree,
                const std::vector<Kdop>& kdops, float radius, const Scheduler& scheduler,
                std::pmr::memory_resource& memory);
 
-  // One basis a child.
+  // One basis per child.
   std::vector<uint16_t> choose(const BasisRule& rule) const;
 
  private:
@@ -52,7 +53,7 @@ class BasisChooser {
   const BoundsKernels& kernels_;
   BasisTable table_;
   float scale_;
-  std::vector<float> cost_;  // by child: of visiting it, in node tests
+  std::vector<float> cost_;  // of visiting a child, in node tests
 };
 
 }  // namespace sobb::study

@@ -14,13 +14,14 @@ namespace {
 
 constexpr uint64_t kRayGrain = 1024;
 
-// The part of a ray that lies in a volume, as its parameter t.
+// The part of a ray that lies in a volume, as an interval of t.
 struct Interval {
   double near;
   double far;
 };
 
-// The ray's side of the slab test by direction; slabs are widened as in trace/ray_table-inl.h.
+// The ray's side of the slab test, by direction. Slabs are widened as in
+// trace/nodes/ray_table-inl.h.
 class RaySlabs {
  public:
   RaySlabs(const BoundedTree& bounded, const sobb_ray& ray) {
@@ -64,7 +65,7 @@ class RaySlabs {
   double far_[kMaxDirections];
 };
 
-struct Open {
+struct StackEntry {
   const Tree::Child* child;
   Interval interval;
 };
@@ -83,12 +84,12 @@ class Traversal {
   ClosestHit run() {
     visit(bounded_.tree.nodes[0], {ray_.tmin, best_.limit});
     while (top_ != stack_) {
-      const Open open = *--top_;
-      if (open.interval.near > best_.limit) continue;
-      if (open.child->is_leaf()) {
-        test(*open.child);
+      const StackEntry entry = *--top_;
+      if (entry.interval.near > best_.limit) continue;
+      if (entry.child->is_leaf()) {
+        test(*entry.child);
       } else {
-        visit(bounded_.tree.nodes[open.child->index], open.interval);
+        visit(bounded_.tree.nodes[entry.child->index], entry.interval);
       }
     }
     return best_;
@@ -99,7 +100,7 @@ class Traversal {
   void visit(const Tree::Node& node, const Interval& parent) {
     work_.nodes += 1;
     work_.volumes += node.child_count;
-    Open* const base = top_;
+    StackEntry* const base = top_;
     for (uint32_t i = node.first_child; i < node.first_child + node.child_count; ++i) {
       Interval interval = {ray_.tmin, best_.limit};
       if (clip_ == Clip::kParent) {
@@ -107,7 +108,7 @@ class Traversal {
       }
       slabs_.clip(bounded_.kdops[i], bounded_.bases[i], interval);
       if (interval.near > interval.far) continue;
-      Open* at = top_++;
+      StackEntry* at = top_++;
       for (; at != base && at[-1].interval.near < interval.near; --at) *at = at[-1];
       *at = {&bounded_.tree.children[i], interval};
     }
@@ -138,8 +139,8 @@ class Traversal {
   RaySlabs slabs_;
   TriangleRay triangle_ray_;
   ClosestHit best_;
-  Open stack_[kMaxDepth * (kMaxWidth - 1) + 1];
-  Open* top_ = stack_;
+  StackEntry stack_[kMaxDepth * (kMaxWidth - 1) + 1];
+  StackEntry* top_ = stack_;
 };
 
 }  // namespace

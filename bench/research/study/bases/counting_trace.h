@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scalar closest-hit traversal of a tree of skewed boxes that counts its work, for rules that the
+// A scalar closest-hit traversal of a tree of skewed boxes counts its work, for rules that the
 // library's kernels do not have.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace sobb::study {
 
-// A tree with a volume for every child: the slabs of its k-DOP in its basis.
+// A tree with a volume for every child: three slabs of its k-DOP, which its basis selects.
 struct BoundedTree {
   const Tree& tree;
   const std::vector<Kdop>& kdops;
@@ -26,10 +26,10 @@ struct BoundedTree {
   const Mesh& mesh;
 };
 
-// What a child's interval is clipped to: the ray's own, or also that in which it is in the parent.
+// Clips a child's interval to the ray's own, or also to the part of the ray in the parent.
 enum class Clip { kRay, kParent };
 
-// Means over the rays.
+// The work per ray, as means over the rays.
 struct Work {
   double nodes = 0;
   double volumes = 0;
@@ -46,8 +46,8 @@ struct Work {
 Work count_work(const BoundedTree& bounded, std::span<const sobb_ray> rays, Clip clip,
                 const Scheduler& scheduler);
 
-// The same for a scene's rays again and again. Throws std::logic_error where the hits are not those
-// of the first time: a volume then lost a triangle.
+// WorkCounter counts for a scene's rays again and again. It throws std::logic_error where the hits
+// differ from those of the first time: a volume then lost a triangle.
 class WorkCounter {
  public:
   WorkCounter(std::span<const sobb_ray> rays, const Scheduler& scheduler)
@@ -61,7 +61,7 @@ class WorkCounter {
   std::optional<Work> first_;
 };
 
-// {"nodes", "volumes", "leaves", "triangles"}, a ray.
+// {"nodes", "volumes", "leaves", "triangles"}, per ray.
 Json to_json(const Work& work);
 
 }  // namespace sobb::study

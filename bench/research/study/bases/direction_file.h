@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A direction table as text, to measure tables that are not the library's.
+// A text file gives a direction table, to measure tables that are not the library's.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace sobb::study {
 
-// Lines `x y z`, 3 to kMaxDirections of them; vectors of any length but zero become unit. Throws
-// std::runtime_error naming the file and the line.
+// Reads 3 to kMaxDirections lines `x y z`; vectors of any length but zero become unit vectors.
+// Throws std::runtime_error naming the file and the line.
 std::vector<Direction> read_directions(const std::string& path);
 
 }  // namespace sobb::study

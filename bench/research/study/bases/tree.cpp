@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kGrain = 4096;
 
-// Appends a part's nodes; its indices are the tree's.
+// Appends a treelet's nodes, whose indices the tree uses as they are.
 void append(const Treelet& treelet, const References& references, Tree& tree) {
   for (const WideNode& wide : treelet.nodes) {
     tree.nodes.push_back({static_cast<uint32_t>(tree.children.size()), wide.child_count});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hierarchy's shape: nodes of up to some width, their children, the triangles of leaves. Volumes
-// are arrays beside it, one value a child.
+// Tree is the shape of a hierarchy: nodes of up to some width, their children, the triangles of
+// leaves. Volumes are arrays beside it, with one value per child.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace sobb::study {
 
 struct Tree {
   struct Child {
-    uint32_t index;      // of a node, or of a leaf's first primitive
-    uint32_t triangles;  // of a leaf; 0 for a node
+    uint32_t index;      // a node's, or that of a leaf's first primitive
+    uint32_t triangles;  // in a leaf; 0 for a node
 
     bool is_leaf() const { return triangles != 0; }
   };
@@ -30,10 +30,10 @@ struct Tree {
   std::vector<Node> nodes;  // parents before their children; the first is the root
   std::vector<Child> children;
   std::vector<uint32_t> primitives;  // leaf by leaf
-  uint32_t depth = 0;                // nodes on the longest way down
+  uint32_t depth = 0;                // nodes on the longest path from the root
 };
 
-// Collapses a binary topology to nodes of 2, 4 or 8 children, as the library does.
+// Collapses a binary topology to nodes of up to 2, 4 or 8 children, as the library does.
 Tree make_tree(const Topology& topology, uint32_t width, const Scheduler& scheduler,
                Memory& memory);
 
@@ -41,13 +41,14 @@ Tree make_tree(const Topology& topology, uint32_t width, const Scheduler& schedu
 std::vector<Kdop> fit_children(const Tree& tree, const Mesh& mesh, const float centre[3],
                                const DirectionTable& directions, const Scheduler& scheduler);
 
-// The sums of a hierarchy's areas that the paper's table has, both over that of the scene's box.
+// The sums of a hierarchy's areas that the paper's table has, divided by the area of the scene's
+// box.
 struct AreaSums {
   double inner = 0;
   double leaf = 0;
 };
 
-// Of children whose volumes have the slabs of a k-DOP in a basis each.
+// Sums the areas of children whose volumes have three slabs of a k-DOP, which a basis selects.
 AreaSums sum_areas(const Tree& tree, const std::vector<Kdop>& kdops,
                    const std::vector<uint16_t>& bases, const DirectionTable& directions,
                    double box_area);

@@ -52,21 +52,21 @@ uint16_t AreaMeasure::shared_basis(std::span<const Kdop* const> kdops, const flo
 
 template <class Visit>
 void AreaMeasure::each_kdop(const BinaryTree& tree, const Visit& visit) const {
-  // In this order both children of a node have been met just before it.
-  std::vector<Kdop> met;
+  // In this order both children of a node come just before it, so their k-DOPs are on the stack.
+  std::vector<Kdop> stack;
   for (size_t at = tree.nodes.size(); at-- > 0;) {
     const BinaryNode& node = tree.nodes[at];
     if (node.is_leaf()) {
-      met.push_back(kdop(tree.references[node.first]));
+      stack.push_back(kdop(tree.references[node.first]));
       for (uint32_t i = 1; i < node.count; ++i) {
-        met.back().merge(kdop(tree.references[node.first + i]));
+        stack.back().merge(kdop(tree.references[node.first + i]));
       }
     } else {
-      const Kdop first = met.back();
-      met.pop_back();
-      met.back().merge(first);
+      const Kdop first = stack.back();
+      stack.pop_back();
+      stack.back().merge(first);
     }
-    visit(at, met.back());
+    visit(at, stack.back());
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The areas that hierarchies are chosen by: of the AABB, or of the SOBB, of what a k-DOP bounds.
+// AreaMeasure gives the areas by which hierarchies are chosen: those of the AABB or the SOBB of a
+// k-DOP.
 #pragma once
 
 #include <memory_resource>
@@ -13,7 +14,8 @@
 
 namespace sobb::study {
 
-// Holds the k-DOP of every triangle: k = 64, basis by strategy k^2, as the library's defaults are.
+// Holds the k-DOP of every triangle. It has the library's defaults: k = 64, and k^2 chooses the
+// basis.
 class AreaMeasure {
  public:
   AreaMeasure(const Mesh& mesh, const MeshSummary& summary, std::pmr::memory_resource& memory);
@@ -21,15 +23,15 @@ class AreaMeasure {
   const Kdop& kdop(const Reference& reference) const { return kdops_[reference.primitive]; }
   uint32_t direction_count() const { return directions_.count; }
 
-  // Over the squared radius of the scene. Of the AABB: of the k-DOP's first three slabs, which are
-  // along the axes.
+  // The area, divided by the squared radius of the scene. The AABB consists of the k-DOP's first
+  // three slabs, which are along the axes.
   float area(sobb_volume volume, const Kdop& kdop) const;
 
   float area_in(uint16_t basis, const Kdop& kdop) const;
-  // The basis of the least sum of areas, each by its weight.
+  // The basis with the least weighted sum of areas.
   uint16_t shared_basis(std::span<const Kdop* const> kdops, const float* weights) const;
 
-  // Of every node of a tree.
+  // One value for every node of a tree.
   std::vector<float> areas(sobb_volume volume, const BinaryTree& tree) const;
   std::vector<Kdop> kdops(const BinaryTree& tree) const;
 
@@ -42,7 +44,7 @@ class AreaMeasure {
   BasisTable table_;
   const BoundsKernels& kernels_;
   float scale_;
-  std::vector<Kdop> kdops_;  // by triangle
+  std::vector<Kdop> kdops_;  // one per triangle
 };
 
 }  // namespace sobb::study

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary hierarchy as an array, whoever built it: what leaves and wide nodes are chosen from.
+// BinaryTree is a binary hierarchy as an array, whoever built it. Leaves and wide nodes are chosen
+// from it.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ struct Reference {
 
 struct BinaryNode {
   uint32_t child[2];  // indices of nodes; both 0 for a leaf
-  uint32_t first;     // of the references below it
+  uint32_t first;     // index of the first reference below it
   uint32_t count;
 
   bool is_leaf() const { return child[0] == 0; }
@@ -24,12 +25,12 @@ struct BinaryNode {
 
 struct BinaryTree {
   std::vector<Reference> references;  // in the order of the leaves
-  std::vector<BinaryNode> nodes;      // a node, all below its first child, all below its second
+  std::vector<BinaryNode> nodes;      // depth first: a node, its first child's, its second child's
 };
 
 BinaryTree flatten(const Topology& topology);
 
-// The same tree with `leaf` of its nodes as leaves: what lies below them is left out.
+// Copies the tree and makes the nodes marked in `leaf` leaves: what lies below them is left out.
 BinaryTree cut(const BinaryTree& tree, const std::vector<bool>& leaf);
 
 }  // namespace sobb::study

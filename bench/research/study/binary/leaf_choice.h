@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which subtrees of a binary tree are leaves.
+// choose_leaves() decides which subtrees of a binary tree become leaves.
 #pragma once
 
 #include "study/binary/binary_tree.h"
 
 namespace sobb::study {
 
-// The least cost by the surface area heuristic over all ways to make leaves of at most
-// kMaxLeafReferences triangles out of whole subtrees. `areas` are the nodes'.
+// Of all ways to make leaves of at most kMaxLeafReferences triangles out of whole subtrees, returns
+// one of the least cost by the surface area heuristic. `areas` has one value per node.
 BinaryTree choose_leaves(const BinaryTree& tree, const std::vector<float>& areas);
 
 }  // namespace sobb::study

@@ -12,8 +12,8 @@ namespace sobb::study {
 namespace {
 
 constexpr int kBins = 32;
-// Below it halves are taken as they come, so that no depth passes the file's limit: coincident
-// centroids and rows of ever smaller triangles would.
+// Below this depth references are halved in their order, since coincident centroids and rows of
+// ever smaller triangles would pass the file's limit of depth.
 constexpr uint32_t kDeepest = kMaxDepth - 32;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -24,7 +24,7 @@ Kdop nothing() {
   return kdop;
 }
 
-// Twice the centre of a slab; the factor is in the bins' scale.
+// Twice the centre of a slab. The scale of the bins has the same factor.
 float place(const Kdop& kdop, uint32_t direction) {
   return kdop.lower[direction] + kdop.upper[direction];
 }
@@ -36,11 +36,11 @@ int bin_of(float place, float begin, float scale) {
 }  // namespace
 
 struct SahBuilder::Split {
-  float cost = kInfinity;  // of the sides: area times the cost of their triangles
-  uint32_t direction = 0;  // bins along this
+  float cost = kInfinity;  // sum over the sides of area times the cost of their triangles
+  uint32_t direction = 0;  // along which centroids are binned
   float begin = 0;
   float scale = 0;
-  int bin = 0;                       // the second side's first
+  int bin = 0;                       // first bin of the second side
   std::optional<FibreSplit> fibres;  // instead of bins
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary hierarchy from the top down, by the binned surface area heuristic over areas of one's
-// choice (I. Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007).
+// SahBuilder builds a binary hierarchy from the top down, by the binned surface area heuristic (I.
+// Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007) over the areas of any
+// volume.
 #pragma once
 
 #include <optional>
@@ -12,24 +13,26 @@
 namespace sobb::study {
 
 struct SahSettings {
-  sobb_volume volume = SOBB_VOLUME_SOBB;  // whose area a side costs
-  uint32_t directions = 3;                // of the table: centroids are binned along the first ones
-  bool fibres = false;                    // two clusters by orientation are tried, too
-  // Triangles of a leaf at most, where the heuristic prefers one. 1: leaves are chosen later.
+  sobb_volume volume = SOBB_VOLUME_SOBB;  // a side costs the area of this
+  uint32_t directions = 3;                // centroids are binned along so many of the table
+  bool fibres = false;                    // tries two clusters by orientation, too
+  // The most triangles of a leaf that the heuristic may prefer to a split. 1: leaves are chosen
+  // later.
   uint32_t leaf_limit = kMaxLeafReferences;
 };
 
 class SahBuilder {
  public:
-  // `tangents` are of all triangles, or empty without fibres. All are borrowed.
+  // `tangents` has one value per triangle, or is empty without fibres. Measure and tangents are
+  // borrowed.
   SahBuilder(const AreaMeasure& measure, const std::vector<Vector>& tangents,
              const SahSettings& settings)
       : measure_(measure), tangents_(tangents), settings_(settings) {}
 
-  // Over the tree's references, whose order it changes.
+  // Builds the nodes over the tree's references, whose order it changes.
   void build(BinaryTree& tree) const;
 
-  // The tree with its leaves split further, each as if it were a tree.
+  // Copies the tree and splits each of its leaves as if it were a tree.
   BinaryTree split_leaves(const BinaryTree& tree) const;
 
  private:

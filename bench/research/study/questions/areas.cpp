@@ -8,12 +8,12 @@
 namespace sobb::study {
 namespace {
 
-// Free normals cost some ten thousand widths a node: larger nodes are left out there.
+// Free normals cost some ten thousand widths per node, so larger nodes get none.
 constexpr uint64_t kLargestOptimised = 4096;
 constexpr uint64_t kAnySize = ~uint64_t{0};
 constexpr const char* kFreeNormals = "free normals";
 
-// Means over the draws of each method's area over the box's.
+// Means, over the draws, of the ratio of each method's area to the box's.
 std::vector<double> mean_ratios(const StudyScene& scene, const Topology& topology,
                                 const VolumeAreas& volumes, const NodeSample& sample,
                                 bool optimise) {

@@ -35,8 +35,8 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
   return {{"width", width}, {"rules", rules}};
 }
 
-// Nanoseconds that the library's kernel takes for a node or a leaf's block of the rays, on the
-// mean, on one thread.
+// Nanoseconds that the library's kernel takes on one thread, on average per node or block of a
+// leaf.
 Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>& rays) {
   sobb_build_options options{};
   options.struct_size = sizeof options;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What does a basis shared by a node's children lose against one each, by the way it is chosen? In
-// the sums of areas, and in the volumes and triangles that a secondary ray meets.
+// What does a basis shared by a node's children lose against one for each child, by the way it is
+// chosen? The answer counts sums of areas, and the volumes and triangles that a secondary ray
+// tests.
 #include "study/bases/fitted_tree.h"
 #include "study/study_scene.h"
 

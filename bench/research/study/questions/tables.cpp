@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What does another direction table bring? Areas on the binary hierarchy, and the volumes and
-// triangles that a secondary ray meets there and on the library's 8-wide nodes.
+// What does another direction table bring? The answer has areas of the binary hierarchy, and the
+// volumes and triangles that a secondary ray tests there and on the library's 8-wide nodes.
 #include <filesystem>
 
 #include "builder/boxes/frame.h"

@@ -37,7 +37,7 @@ void trace(sobb_hierarchy* hierarchy, const Rays& rays, Hits& hits, sobb_count* 
   check(sobb_intersect(hierarchy, rays.data(), rays.size(), hits.data(), &options));
 }
 
-// Rays, and what the library's own hierarchy hits.
+// Rays, and the hits that the library's own hierarchy finds.
 struct RayTask {
   Rays rays;
   Hits expected;
@@ -47,7 +47,7 @@ struct RayTask {
   }
 };
 
-// What a ray visits, on average. The hits must be the expected ones, bit by bit.
+// Counts what a ray visits, on average. The hits must be the expected ones, bit by bit.
 Json count_work(sobb_hierarchy* hierarchy, const RayTask& task) {
   std::vector<sobb_count> counts(task.rays.size());
   Hits hits;
@@ -73,7 +73,7 @@ Json count_work(sobb_hierarchy* hierarchy, const RayTask& task) {
           {"triangles", per_ray(triangles)}};
 }
 
-// A variant's file, and its row of the report.
+// A variant's hierarchy, and its row of the report.
 struct Entry {
   std::shared_ptr<sobb_hierarchy> hierarchy;
   Json row;
@@ -106,8 +106,8 @@ Entry make_entry(StudyScene& scene, const Variant& variant) {
   return entry;
 }
 
-// Every hierarchy has its turn in every round. Its fastest counts: processor time is only ever
-// lengthened by what else the machine does.
+// Times every hierarchy once per round. Its fastest round counts: what else the machine does only
+// ever adds processor time.
 void time_all(std::vector<Entry>& entries, const Rays& rays) {
   Hits hits(rays.size());
   for (int round = 0; round < kRounds; ++round) {

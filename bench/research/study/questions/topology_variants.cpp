@@ -92,7 +92,7 @@ class Variants {
     return volume == SOBB_VOLUME_AABB ? "aabb" : "sobb";
   }
 
-  // A binary hierarchy is one of wide nodes that no child was opened in.
+  // A binary hierarchy consists of wide nodes of two children.
   void binary(const char* splits, const char* leaves, const Timed& from) const {
     const std::vector<float> none(from.tree.nodes.size());
     visit_({splits, leaves, "none", Layout::kBinary, from.tree,

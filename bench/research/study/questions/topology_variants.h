@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to make a hierarchy that the study compares: how it is split, what its leaves are, and
-// how binary nodes become wide ones.
+// each_variant() makes the hierarchies that the study compares. They differ in how they are split,
+// what their leaves are, and how binary nodes become wide ones.
 #pragma once
 
 #include <functional>
@@ -15,19 +15,20 @@ namespace sobb::study {
 
 enum class Layout { kBinary, kWide };
 
-// A hierarchy's triangles and nodes, before volumes.
+// A hierarchy's triangles and nodes, without volumes.
 struct Variant {
-  const char* splits;    // how the binary hierarchy was made
-  const char* leaves;    // how its leaves were
-  const char* collapse;  // how wide nodes were; "none" for a binary one
+  const char* splits;    // how the binary hierarchy was split
+  const char* leaves;    // how its leaves were chosen
+  const char* collapse;  // how wide nodes were chosen; "none" for a binary hierarchy
   Layout layout;
   BinaryTree tree;
   WideCut cut;
-  double topology_ms;  // processor time of splits and, but for an exact collapse, of leaves
-  double collapse_ms;  // of areas and wide nodes, and of leaves chosen with them
+  double topology_ms;  // processor time of splits, and of leaves unless the collapse chooses them
+  double collapse_ms;  // processor time of areas and wide nodes, and of leaves chosen with them
 };
 
-// Makes the variants one after the other. The first is the library's own.
+// Makes the variants one after the other. The splits named "embree" are the library's own: Embree's
+// builder made them when docs/data/study-topologies.json was measured.
 void each_variant(const Mesh& mesh, const MeshSummary& summary, std::pmr::memory_resource& memory,
                   const std::function<void(const Variant&)>& visit);
 

@@ -12,7 +12,7 @@
 namespace sobb::study {
 namespace {
 
-using Costs = std::array<float, kMaxWidth>;  // C(n, i) at i; [0] is unused
+using Costs = std::array<float, kMaxWidth>;  // C(n, i) at [i]; [0] is unused
 
 class Collapse {
  public:
@@ -34,7 +34,7 @@ class Collapse {
     uint32_t left_roots = 0;
   };
 
-  // D(n, i) and its k.
+  // D(n, i), and the k that attains it.
   Share distribute(uint32_t node, uint32_t roots) const {
     const Costs& left = costs_[tree_.nodes[node].child[0]];
     const Costs& right = costs_[tree_.nodes[node].child[1]];
@@ -65,7 +65,7 @@ class Collapse {
     for (uint32_t i = 2; i < width_; ++i) cost[i] = std::min(distribute(at, i).cost, cost[i - 1]);
   }
 
-  // Gives what lies below an inner node `roots` roots.
+  // Divides what lies below an inner node into `roots` roots.
   void share(uint32_t at, uint32_t roots) {
     const uint32_t left = distribute(at, roots).left_roots;
     settle(tree_.nodes[at].child[0], left);

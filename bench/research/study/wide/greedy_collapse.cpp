@@ -6,7 +6,7 @@ namespace sobb::study {
 WideCut collapse_greedily(const BinaryTree& tree, const std::vector<float>& areas, uint32_t width) {
   WideCut cut(tree.nodes.size(), Role::kInside);
   cut[0] = Role::kWide;
-  std::vector<uint32_t> children;  // in the tree's order, which ties go by
+  std::vector<uint32_t> children;  // in the tree's order, which breaks ties
   for (uint32_t root = 0; root < tree.nodes.size(); ++root) {
     if (cut[root] != Role::kWide) continue;
     children.assign(tree.nodes[root].child, tree.nodes[root].child + 2);

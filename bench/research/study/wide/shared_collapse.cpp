@@ -12,7 +12,7 @@
 namespace sobb::study {
 namespace {
 
-using Costs = std::array<float, kMaxWidth + 1>;  // as a forest of at most i roots, at i
+using Costs = std::array<float, kMaxWidth + 1>;  // of a forest of at most i roots, at [i]
 
 class Collapse {
  public:
@@ -35,7 +35,7 @@ class Collapse {
   }
 
  private:
-  // A wide node that begins here: the sum of all areas by cost below it, and its basis.
+  // A wide node that begins here: the cost of all below it, and its basis.
   struct Wide {
     float cost = std::numeric_limits<float>::infinity();
     uint16_t basis = kAxesBasis;
@@ -46,7 +46,7 @@ class Collapse {
     return node.is_leaf() || (leaves_ == Leaves::kChosen && node.count <= kMaxLeafReferences);
   }
 
-  // What visiting a node costs for each area of its volume, were it a child.
+  // What visiting a node as a child costs per area of its volume.
   float cost_per_area(uint32_t at) const {
     const BinaryNode& node = tree_.nodes[at];
     const float leaf = triangles_cost(node.count);
@@ -67,7 +67,7 @@ class Collapse {
     return std::min(leaf, kWideNodeCost * measure_.area_in(basis, kdops_[at]) + wide_[at].cost);
   }
 
-  // D(n, i) of two forests, and how many roots the first gets.
+  // D(n, i) for two forests, and how many roots the first gets.
   static std::pair<float, uint32_t> share(const Costs& first, const Costs& second, uint32_t roots) {
     std::pair<float, uint32_t> best{std::numeric_limits<float>::infinity(), 0};
     for (uint32_t k = 1; k < roots; ++k) {
@@ -88,7 +88,7 @@ class Collapse {
     return costs;
   }
 
-  // All roots but the node itself: a wide node has children.
+  // The cost of a wide node's children. The node itself cannot be the only root.
   float children_cost(uint32_t at, uint16_t basis) const {
     const auto& child = tree_.nodes[at].child;
     return share(forest(child[0], kMaxWidth - 1, basis), forest(child[1], kMaxWidth - 1, basis),
@@ -133,7 +133,7 @@ class Collapse {
     divide(at, kMaxWidth, wide_[at].basis);
   }
 
-  // Gives what lies below an inner node `roots` roots.
+  // Divides what lies below an inner node into `roots` roots.
   void divide(uint32_t at, uint32_t roots, uint16_t basis) {
     const auto& child = tree_.nodes[at].child;
     const uint32_t first =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wide nodes of the least cost where all children of a node are bounded in one basis, as the
-// library bounds them: what exact_collapse.h knows nothing of.
+// collapse_sharing() finds wide nodes of the least cost where one basis bounds all children of a
+// node. The collapse of exact_collapse.h ignores that.
 #pragma once
 
 #include "study/binary/area_measure.h"
@@ -8,9 +8,9 @@
 
 namespace sobb::study {
 
-// By dynamic programming as in exact_collapse.h, anew for every node that a wide one may begin at:
-// within it areas are those in its basis. That is the axes or the best basis for the children that
-// opening the largest would give, whichever is cheaper.
+// Runs the dynamic programming of exact_collapse.h anew for every node at which a wide one may
+// begin, with areas in the basis of that node. The basis is the cheaper of two: the axes, and the
+// best basis for the children that opening the largest would give.
 WideCut collapse_sharing(const BinaryTree& tree, const AreaMeasure& measure, Leaves leaves);
 
 }  // namespace sobb::study

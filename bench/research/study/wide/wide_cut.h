@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A choice of wide nodes: what becomes of every node of a binary tree.
+// WideCut is a choice of wide nodes: it says what becomes of every node of a binary tree.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace sobb::study {
 
 enum class Role : uint8_t {
-  kInside,  // of a wide node (or of a leaf): its children are that one's
+  kInside,  // inside a wide node (or a leaf), which takes over its children
   kWide,    // the root of a wide node
-  kLeaf,    // a leaf, all below it included
+  kLeaf,    // a leaf, which includes all below it
 };
 
-using WideCut = std::vector<Role>;  // by node; the first is a wide node's root
+using WideCut = std::vector<Role>;  // one per node; the first is a wide node's root
 
 }  // namespace sobb::study

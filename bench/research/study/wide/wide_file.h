@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hierarchy of the library out of a choice of wide nodes, by the library's own volumes, file and
-// checks.
+// make_hierarchy() turns a choice of wide nodes into a hierarchy of the library, with the library's
+// own volumes, file and checks.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace sobb::study {
 
-// SOBBs of k = 64 by strategy k^2, in nodes of room for 4 or 8 children. The file is opened as any
-// other, so that it is proven to hold every node and block once.
+// Its SOBBs are those of k = 64 by strategy k^2, its nodes have room for 4 or 8 children. The file
+// is opened as any other, which proves that it holds every node and block once.
 std::shared_ptr<sobb_hierarchy> make_hierarchy(const Mesh& mesh, const MeshSummary& summary,
                                                const WideLayout& layout, uint32_t width);
 

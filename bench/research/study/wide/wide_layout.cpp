@@ -32,21 +32,21 @@ WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_
   WideLayout layout{std::move(primitives), WideTopology(references, memory), 0, 0};
 
   Treelet& part = layout.topology.top;
-  struct Open {
+  struct Pending {
     uint32_t root;   // in the tree
     uint32_t index;  // of the wide node
     uint32_t depth;
   };
-  std::vector<Open> stack{{0, 0, 1}};
+  std::vector<Pending> stack{{0, 0, 1}};
   part.nodes.resize(1);
   uint64_t depth_sum = 0;
   std::vector<uint32_t> children;
   while (!stack.empty()) {
-    const Open open = stack.back();
+    const Pending wide_root = stack.back();
     stack.pop_back();
-    part.depth = std::max(part.depth, open.depth);
+    part.depth = std::max(part.depth, wide_root.depth);
     children.clear();
-    gather(tree, cut, open.root, children);
+    gather(tree, cut, wide_root.root, children);
     WideNode wide{};
     for (const uint32_t child : children) {
       const uint32_t i = wide.child_count++;
@@ -56,7 +56,7 @@ WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_
         wide.count[i] = static_cast<uint8_t>(tree.nodes[child].count);
         part.block_count += blocks_of(tree.nodes[child].count);
         ++layout.leaf_count;
-        depth_sum += open.depth;
+        depth_sum += wide_root.depth;
       } else {
         wide.index[i] = static_cast<uint32_t>(part.nodes.size());
         part.nodes.emplace_back();
@@ -64,10 +64,10 @@ WideLayout lay_out(const BinaryTree& tree, const WideCut& cut, std::pmr::memory_
     }
     for (uint32_t i = wide.child_count; i-- > 0;) {
       if (cut[children[i]] == Role::kWide) {
-        stack.push_back({children[i], wide.index[i], open.depth + 1});
+        stack.push_back({children[i], wide.index[i], wide_root.depth + 1});
       }
     }
-    part.nodes[open.index] = wide;
+    part.nodes[wide_root.index] = wide;
   }
   if (part.depth > kMaxDepth) {
     fail(SOBB_ERROR_INTERNAL, "a hierarchy of %u nodes deep, more than %u", part.depth, kMaxDepth);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The collapses and the choice of leaves of bench/study, against all possible ones.
+// The exact collapse costs the least of all possible ones; the greedy one and the choice of leaves
+// keep their limits.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -35,7 +36,7 @@ uint32_t grow(Random& random, uint32_t leaves, BinaryTree& tree) {
   return at;
 }
 
-// Areas as no volume would have them: any.
+// Arbitrary areas, such as no volume has.
 std::vector<float> random_areas(Random& random, const BinaryTree& tree) {
   std::vector<float> areas(tree.nodes.size());
   for (float& area : areas) area = random.between(0.1, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least area over free normals, where it is known.
+// The search over free normals finds the least area where it is known.
 #include "study/areas/free_normals.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(FreeNormals, WidthsAreThoseOfTheCorners) {
   EXPECT_NEAR(area_with(points, kAxes), 2 * (12 + 12 + 16), 1e-4);
 }
 
-// No smaller one is known to be there: the search must come at least as low.
+// No smaller box is known, so the search must come at least as low.
 TEST(FreeNormals, FindsASkewedBox) {
   const float edge[3][3] = {{2, 0.3F, 0.1F}, {0.4F, 3, 0.2F}, {1.5F, 1.2F, 2}};
   const PointSet points = points_of(parallelepiped(edge));

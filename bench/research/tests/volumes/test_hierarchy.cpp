@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every volume of the comparison: conservative, traced to the oracle's bits, the same from every
+// Hierarchies of every volume are conservative, find the oracle's bits, and are the same from every
 // instruction set and number of threads.
+#include "volumes/hierarchy.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -9,7 +11,6 @@
 #include "builder/build.h"
 #include "support/soups.h"
 #include "support/supported_isas.h"
-#include "volumes/hierarchy.h"
 
 namespace sobb::study {
 namespace {
@@ -28,7 +29,7 @@ std::vector<Soup> soups() {
           test::placed(test::random_soup(7, 1000), 1, 1000)};
 }
 
-class Study : public testing::TestWithParam<Method> {
+class EveryVolume : public testing::TestWithParam<Method> {
  protected:
   const Scheduler serial_{1, nullptr};
   const Scheduler parallel_{0, nullptr};
@@ -38,7 +39,7 @@ class Study : public testing::TestWithParam<Method> {
   }
 };
 
-TEST_P(Study, HitsAreTheOraclesAndNoVertexLeaks) {
+TEST_P(EveryVolume, HitsAreTheOraclesAndNoVertexLeaks) {
   for (const Soup& soup : soups()) {
     const sobb_triangles triangles = soup.view();
     const std::vector<sobb_ray> rays = test::mixed_rays(soup, 11, 300);
@@ -64,7 +65,7 @@ TEST_P(Study, HitsAreTheOraclesAndNoVertexLeaks) {
   }
 }
 
-TEST_P(Study, AreasAndWorkDoNotDependOnTheWay) {
+TEST_P(EveryVolume, AreasAndWorkDoNotDependOnTheWay) {
   const Soup soup = test::random_soup(21, 20000, 0.05);
   const SharedTopology topology = share(soup);
   const std::vector<sobb_ray> rays = test::mixed_rays(soup, 22, 500);
@@ -91,7 +92,7 @@ std::string test_name(const testing::TestParamInfo<Method>& info) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, Study, testing::ValuesIn(kMethods), test_name);
+INSTANTIATE_TEST_SUITE_P(Methods, EveryVolume, testing::ValuesIn(kMethods), test_name);
 
 const Method& method(std::string_view name) {
   for (const Method& one : kMethods) {
@@ -100,8 +101,8 @@ const Method& method(std::string_view name) {
   throw std::invalid_argument(std::string(name));
 }
 
-// The AABB of the study is that of the files: the same topology, the same areas.
-TEST(StudyAreas, OfAabbsAreThoseOfAFile) {
+// The AABBs here are those of a file: they have the same topology and the same areas.
+TEST(VolumeAreas, OfAabbsAreThoseOfAFile) {
   const Soup soup = test::random_soup(31, 5000);
   const sobb_triangles triangles = soup.view();
   sobb_build_options options{};
@@ -124,9 +125,9 @@ TEST(StudyAreas, OfAabbsAreThoseOfAFile) {
   EXPECT_EQ(topology.leaf_count(), info.leaves);
 }
 
-// More directions, and more triples of them tried, bound closer; every oriented or skewed volume
+// More directions, and more triples of them tried, bound closer. Every oriented or skewed volume
 // bounds slivers closer than boxes along the axes.
-TEST(StudyAreas, FallWithEffort) {
+TEST(VolumeAreas, FallWithEffort) {
   const Soup soup = test::sliver_soup(41, 4000);
   const Scheduler serial(1, nullptr);
   const SharedTopology topology(soup.view(), serial, std::make_shared<Memory>());
@@ -144,14 +145,14 @@ TEST(StudyAreas, FallWithEffort) {
               0.05);
 }
 
-TEST(StudyErrors, AWidthThatIsNone) {
+TEST(VolumeErrors, AWidthThatIsNone) {
   const Soup soup = test::random_soup(51, 10);
   const Scheduler serial(1, nullptr);
   const SharedTopology topology(soup.view(), serial, std::make_shared<Memory>());
   EXPECT_THROW(Hierarchy(topology, {method("AABB"), 4}, serial), Error);
 }
 
-TEST(StudyErrors, AScaleWithoutRoom) {
+TEST(VolumeErrors, AScaleWithoutRoom) {
   const Soup soup = test::placed(test::random_soup(52, 10), 0x1p50, 0);
   const Scheduler serial(1, nullptr);
   const SharedTopology topology(soup.view(), serial, std::make_shared<Memory>());
