@@ -28,7 +28,7 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--threads", options.threads, "threads of every build and trace")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--cell-seconds", options.cell_seconds, "time for all repetitions of a row")
+  app.add_option("--cell-seconds", options.cell_seconds, "time for the repetitions of a row")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   std::map<std::string, sobb_isa> isas;
@@ -41,7 +41,7 @@ void add_options(CLI::App& app, Options& options) {
        {"k2", {SOBB_STRATEGY_K2}},
        {"k3", {SOBB_STRATEGY_K3}},
        {"all", {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}}},
-      "strategy of SOBB 32, 48 and 64: k, k2 (default), k3 or all; SOBB 128 and 256 take k2");
+      "of SOBB 32, 48 and 64: k, k2 (default), k3 or all; 128 and 256 take k2");
   add_choice(app, "--layout", options.widths, {{"binary", {2}}, {"wide", {8}}, {"both", {2, 8}}},
              "nodes of two children, of eight, or both (default)");
 }

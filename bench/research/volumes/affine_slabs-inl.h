@@ -3,8 +3,8 @@
 //
 // For a row s = [m, w], m = rho n: so = m . o + w, sd = m . d, and the ray is within the slab for t
 // from the lesser to the greater of (0 - so) / sd and (1 - so) / sd. The error of
-// trace/nodes/ray_table-inl.h, e along a unit normal, is rho e here; |m_x| + |m_y| + |m_z| is no
-// less than rho.
+// trace/ray/slab_coefficients-inl.h, e along a unit normal, is rho e here; |m_x| + |m_y| + |m_z| is
+// no less than rho.
 #if defined(SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H
 #undef SOBB_RESEARCH_VOLUMES_AFFINE_SLABS_INL_H

@@ -7,7 +7,7 @@
 
 #include "builder/wide/collapse.h"
 #include "format/layout.h"
-#include "trace/triangles/triangle_test.h"
+#include "trace/triangles/closest_hit.h"
 
 namespace sobb::study {
 namespace {

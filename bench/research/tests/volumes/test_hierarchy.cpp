@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hierarchies of every volume are conservative, find the oracle's bits, and are the same from every
 // instruction set and number of threads.
-#include "volumes/hierarchy.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -11,6 +9,7 @@
 #include "builder/build.h"
 #include "support/soups.h"
 #include "support/supported_isas.h"
+#include "volumes/hierarchy.h"
 
 namespace sobb::study {
 namespace {
