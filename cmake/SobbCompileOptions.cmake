@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What every target of the project is compiled with: the interface library sobb_options.
+# Every target of the project is compiled with the interface library sobb_options.
 
 option(SOBB_WERROR "Treat warnings as errors" OFF)
 

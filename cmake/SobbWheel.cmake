@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the Python package carries (python/pyproject.toml), below sobb/native: the libraries and all
-# that they load in lib, the programs in bin. Included where scikit-build-core runs CMake.
+# The Python package (python/pyproject.toml) carries two folders below sobb/native: lib has the libraries
+# and all that they load, bin has the programs. scikit-build-core's runs of CMake include this file.
 
 find_package(TBB CONFIG REQUIRED)
 
@@ -10,8 +10,8 @@ set(wheel_programs sobb_bench sobb_bench_volumes)
 # A wheel holds no symbolic links: each library is one file, named as programs ask for it.
 set_target_properties(${wheel_libraries} PROPERTIES VERSION ${SOBB_ABI_VERSION})
 set_target_properties(${wheel_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
-# The old kind of path holds for what a library loads in turn, too: Embree finds TBB beside itself
-# though nothing in it says so.
+# The old kind of run path holds also for what a library loads in turn: Embree finds TBB beside
+# itself though nothing in it says so.
 foreach(target IN LISTS wheel_libraries wheel_programs)
   target_link_options(${target} PRIVATE -Wl,--disable-new-dtags)
 endforeach()
@@ -19,11 +19,11 @@ endforeach()
 install(TARGETS ${wheel_libraries} LIBRARY DESTINATION lib NAMELINK_SKIP COMPONENT wheel)
 install(TARGETS ${wheel_programs} RUNTIME DESTINATION bin COMPONENT wheel)
 
-# TBB asks for its allocator by name, as it runs.
+# TBB loads its allocator by name at run time.
 install(FILES $<TARGET_FILE:TBB::tbbmalloc> DESTINATION lib
   RENAME $<TARGET_SONAME_FILE_NAME:TBB::tbbmalloc> COMPONENT wheel)
 
-# The C and C++ run time is the system's.
+# The wheel carries what the files load, but takes the C and C++ run time from the system.
 install(CODE [[
   file(GET_RUNTIME_DEPENDENCIES
     RESOLVED_DEPENDENCIES_VAR loaded
@@ -37,7 +37,8 @@ install(CODE [[
   endforeach()
 ]] COMPONENT wheel)
 
-# Which commit it was made from, for what is measured with it; nothing without a checkout.
+# The package names the commit that it was made from, for what is measured with it. Without a checkout
+# it names none.
 find_package(Git QUIET)
 if(Git_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
   execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --abbrev=40 --dirty=+ --exclude=*
