@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# The Python package (python/pyproject.toml) carries two folders below sobb/native: lib has the libraries
-# and all that they load, bin has the programs. scikit-build-core's runs of CMake include this file.
+# The Python package (python/pyproject.toml) carries two folders below sobb/native: lib has the
+# libraries and all that they load, bin has the programs. scikit-build-core's runs of CMake include
+# this file.
 
 find_package(TBB CONFIG REQUIRED)
 
@@ -37,8 +38,8 @@ install(CODE [[
   endforeach()
 ]] COMPONENT wheel)
 
-# The package names the commit that it was made from, for what is measured with it. Without a checkout
-# it names none.
+# The package names the commit that it was made from, for what is measured with it. Without a
+# checkout it names none.
 find_package(Git QUIET)
 if(Git_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
   execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --abbrev=40 --dirty=+ --exclude=*

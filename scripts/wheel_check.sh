@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Installs the Python package as a user does, into a new virtual environment, and proves that it
-# works with NumPy alone, on the libraries and programs that it brought; that the source distribution
-# has every source that these need, and no more; and that the wheel has no other program.
+# works with NumPy alone, on the libraries and programs that it brought; that the source
+# distribution has every source that these need, and no more; and that the wheel has no other
+# program.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
