@@ -3,7 +3,7 @@
 #pragma once
 
 #include "builder/mesh.h"
-#include "builder/topology/box.h"
+#include "builder/boxes/box.h"
 
 namespace sobb::study {
 
