@@ -2,8 +2,8 @@
 // The surface area of a scene's box, which sums of areas are given relative to.
 #pragma once
 
-#include "builder/mesh.h"
 #include "builder/boxes/box.h"
+#include "builder/mesh.h"
 
 namespace sobb::study {
 
