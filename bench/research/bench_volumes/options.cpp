@@ -35,13 +35,12 @@ void add_options(CLI::App& app, Options& options) {
   for (const std::string& name : isa_choices())
     check(sobb_isa_from_name(name.c_str(), &isas[name]));
   add_choice(app, "--isa", options.isa, isas, "the kernels (default: best)");
-  add_choice(
-      app, "--strategy", options.strategies,
-      {{"k", {SOBB_STRATEGY_K}},
-       {"k2", {SOBB_STRATEGY_K2}},
-       {"k3", {SOBB_STRATEGY_K3}},
-       {"all", {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}}},
-      "of SOBB 32, 48 and 64: k, k2 (default), k3 or all; 128 and 256 take k2");
+  add_choice(app, "--strategy", options.strategies,
+             {{"k", {SOBB_STRATEGY_K}},
+              {"k2", {SOBB_STRATEGY_K2}},
+              {"k3", {SOBB_STRATEGY_K3}},
+              {"all", {SOBB_STRATEGY_K, SOBB_STRATEGY_K2, SOBB_STRATEGY_K3}}},
+             "of SOBB 32, 48 and 64: k, k2 (default), k3 or all; 128 and 256 take k2");
   add_choice(app, "--layout", options.widths, {{"binary", {2}}, {"wide", {8}}, {"both", {2, 8}}},
              "nodes of two children, of eight, or both (default)");
 }
