@@ -19,7 +19,7 @@ std::string expect_failure(sobb_status status, const std::string& part, const Bo
     ADD_FAILURE() << "no error, expected: " << part;
     return {};
   } catch (const Error& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(error.status, status) << message;
     EXPECT_NE(message.find(part), std::string::npos) << message;
     return message;
