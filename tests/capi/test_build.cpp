@@ -32,7 +32,7 @@ struct Threads {
   }
 };
 
-TEST(Build, GivesTheSameBytesHoweverItIsRun) {
+TEST(Build, GivesTheSameBytesForAnyThreadsAndInstructionSet) {
   ThreadPool pool(3);
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   Threads threads;

@@ -169,7 +169,7 @@ TEST(BuildFailure, OfBadTriangles) {
   EXPECT_STREQ(sobb_last_error(), "the mesh has no triangle");
 }
 
-TEST(BuildMemory, EveryBlockComesBackAsItWent) {
+TEST(BuildMemory, EveryBlockComesBackOnAnyThreads) {
   const Soup soup = random_soup(8, 3000);
   for (const uint32_t quality : kQualities) {
     for (const uint32_t threads : {1U, 3U}) {
@@ -208,7 +208,7 @@ TEST(BuildMemory, AnAllocatorMayFailAtAnyCall) {
   }
 }
 
-TEST(BuildMemory, KeepsTheLimit) {
+TEST(BuildMemory, KeepsTheLimitOnAnyThreads) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   const Soup soup = random_soup(10, 10'000);
   for (const uint32_t quality : kQualities) {
@@ -253,7 +253,7 @@ struct Watch {
   }
 };
 
-TEST(BuildProgress, RisesFromNoughtToOne) {
+TEST(BuildProgress, RisesFromNoughtToOneOnAnyThreads) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   const Soup soup = random_soup(11, 20'000);
   for (const uint32_t quality : kQualities) {
@@ -271,7 +271,7 @@ TEST(BuildProgress, RisesFromNoughtToOne) {
   }
 }
 
-TEST(BuildProgress, CancelsAtAnyCallAndLeavesNothing) {
+TEST(BuildProgress, CancelsAtAnyCallOnAnyThreadsAndLeavesNothing) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   const Soup soup = random_soup(12, 6000);
   for (const uint32_t quality : kQualities) {

@@ -52,7 +52,7 @@ TEST_P(Fitted, ReturnsTheOraclesBits) {
   }
 }
 
-TEST_P(Fitted, GivesTheSameBytesHoweverItIsRun) {
+TEST_P(Fitted, GivesTheSameBytesForAnyThreadsAndInstructionSet) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   for (const uint32_t quality : kQualities) {
     sobb_build_options options = fitted_options(quality);
