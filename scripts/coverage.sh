@@ -16,9 +16,9 @@ case "$#:${1:-}" in
   *) echo "usage: scripts/coverage.sh [--lines FILE]" >&2; exit 2 ;;
 esac
 
-scripts/setup.sh --tests >/dev/null
-# shellcheck disable=SC2086 # a list of words
-need_packages $coverage_packages
+scripts/setup.sh --tests --research >/dev/null
+# shellcheck disable=SC2086 # lists of words
+need_packages $sanitizer_packages $coverage_packages
 
 build=build/coverage
 cmake --preset coverage >/dev/null
@@ -37,7 +37,7 @@ llvm-profdata-14 merge -o $build/all.profdata "$counts"/*.profraw
 objects=("$build"/lib/libsobb.so)
 for object in "$build"/lib/libsobb_scene.so "$build"/bin/test_*; do objects+=(-object "$object"); done
 sources=()
-for folder in lib/{base,bounds,build,format,scene,trace} capi/src; do
+for folder in lib/{base,bounds,builder,format,scene,trace} capi/src; do
   sources+=("$PWD/$folder")
 done
 report() { llvm-cov-14 "$1" "${objects[@]}" -instr-profile=$build/all.profdata "${@:2}"; }

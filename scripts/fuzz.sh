@@ -18,7 +18,7 @@ targets=("$@")
 ((${#targets[@]})) || targets=(open open_mended trace obj ply stl off gltf glb views)
 
 # shellcheck disable=SC2086 # lists of words
-need_packages $build_packages $test_packages
+need_packages $build_packages $test_packages $sanitizer_packages
 use_ccache
 cmake --preset asan >/dev/null
 cmake --build --preset asan --target "${targets[@]/#/fuzz_}"

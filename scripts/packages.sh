@@ -7,9 +7,13 @@ build_packages="g++ cmake ninja-build ccache pkg-config
   libembree-dev libtbb-dev libhwy-dev libxxhash-dev libtinygltf-dev nlohmann-json3-dev
   libopenmesh-dev libbenchmark-dev libcli11-dev python3-venv"
 
-# What the tests and checks need besides.
-test_packages="git libgtest-dev chromium
-  clang-14 libclang-rt-14-dev clang-format-14 clang-tidy-14"
+# What scripts/test.sh needs besides.
+test_packages="git libgtest-dev clang-format-14"
+
+# What scripts/test.sh --all needs besides: the sanitizers' compiler, clang-tidy, and a browser for
+# the report's pages.
+sanitizer_packages="clang-14 libclang-rt-14-dev"
+check_packages="clang-tidy-14 chromium"
 
 # What scripts/coverage.sh needs besides.
 coverage_packages="llvm-14"

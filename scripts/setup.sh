@@ -2,24 +2,33 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes everything that the demo needs, on a bare Debian 12: packages, the virtual environment
 # .venv with the Python package, and the release build in build/release. Quick when all is there.
-# usage: scripts/setup.sh [--tests]   --tests: the same with the tests and what they need
+# usage: scripts/setup.sh [--tests] [--research]
+#   --tests      builds the tests, too
+#   --research   builds what `python -m sobb paper` and the studies run, too
+# What a build folder once had stays in it.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
 
-tests=OFF
-case "${1:-}" in
-  "") ;;
-  --tests) tests=ON ;;
-  *) echo "usage: scripts/setup.sh [--tests]" >&2; exit 2 ;;
-esac
-
-# shellcheck disable=SC2086 # lists of words
-if [[ $tests == ON ]]; then
-  need_packages $build_packages $test_packages
-else
-  need_packages $build_packages
-fi
+packages=$build_packages
+settings=()
+# A new build folder: without what nobody asks for.
+[[ -f build/release/build.ninja ]] || settings=(-DSOBB_BUILD_TESTS=OFF -DSOBB_BUILD_RESEARCH=OFF)
+for option in "$@"; do
+  case "$option" in
+    --tests)
+      packages+=" $test_packages"
+      settings+=(-DSOBB_BUILD_TESTS=ON)
+      ;;
+    --research) settings+=(-DSOBB_BUILD_RESEARCH=ON) ;;
+    *)
+      echo "usage: scripts/setup.sh [--tests] [--research]" >&2
+      exit 2
+      ;;
+  esac
+done
+# shellcheck disable=SC2086 # a list of words
+need_packages $packages
 
 # The stamp says for which pyproject.toml, and which place of the checkout, .venv was made.
 stamp=.venv/made-for
@@ -32,7 +41,5 @@ if [[ ! -f $stamp || $(<"$stamp") != "$made_for" ]]; then
 fi
 
 use_ccache
-if [[ ! -f build/release/build.ninja || $tests == ON ]]; then
-  cmake --preset release -DSOBB_BUILD_TESTS=$tests >/dev/null
-fi
+((${#settings[@]} == 0)) || cmake --preset release "${settings[@]}" >/dev/null
 cmake --build --preset release
