@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Everything that has to pass: sets up what is missing, builds, runs the tests and the checks. The
-# last line counts tests and checks; the exit code is 0 where none failed.
-# usage: scripts/test.sh [--quick]   --quick: the release build's tests only
+# Proves a build: sets up what is missing, builds the release, runs its tests and Python's, and checks
+# the format; ten minutes on two cores from nothing. With --all everything that has to pass, which
+# continuous integration runs: linters, the wheel, the sanitizers and a short fuzz run besides.
+# The last line counts tests and checks; the exit code is 0 where none failed.
+# usage: scripts/test.sh [--all]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
 
-quick=no
-case "${1:-}" in
-  "") ;;
-  --quick) quick=yes ;;
-  *) echo "usage: scripts/test.sh [--quick]" >&2; exit 2 ;;
+all=no
+case "$#:${1:-}" in
+  0:) ;;
+  1:--all) all=yes ;;
+  *) echo "usage: scripts/test.sh [--all]" >&2; exit 2 ;;
 esac
 
 jobs=$(nproc)
@@ -62,12 +64,12 @@ tidy() {
     { grep -vE '^clang-tidy-14 |^[0-9]+ warnings generated|^$' || true; }
 }
 
-# The scripts lie outside the package, so they are told its settings.
+# Scripts and charts lie outside the package, so they are told its settings.
 ruff() {
   .venv/bin/ruff check python &&
-    .venv/bin/ruff check --config python/pyproject.toml scripts &&
+    .venv/bin/ruff check --config python/pyproject.toml scripts bench/research &&
     .venv/bin/ruff format --check python &&
-    .venv/bin/ruff format --check --config python/pyproject.toml scripts
+    .venv/bin/ruff format --check --config python/pyproject.toml scripts bench/research
 }
 
 # The package; python/pyproject.toml says which files.
@@ -75,12 +77,16 @@ types() {
   (cd python && ../.venv/bin/mypy)
 }
 
-check "release build, g++" scripts/setup.sh --tests
+if [[ $all == yes ]]; then
+  # shellcheck disable=SC2086 # lists of words
+  need_packages $build_packages $test_packages $sanitizer_packages $check_packages
+fi
+check "release build, g++" scripts/setup.sh --tests --research
 use_ccache
 check "C++ tests" ctest --preset release -j "$jobs"
 check "Python tests" .venv/bin/python -m pytest -q python/tests
-if [[ $quick == no ]]; then
-  check "clang-format" format
+check "clang-format" format
+if [[ $all == yes ]]; then
   check "ruff" ruff
   check "mypy" types
   check "wheel" scripts/wheel_check.sh
@@ -91,6 +97,8 @@ if [[ $quick == no ]]; then
   check "short fuzz run" scripts/fuzz.sh 2
   check "ThreadSanitizer build, clang" build tsan
   check "C++ tests under ThreadSanitizer" ctest --preset tsan -j "$jobs"
+else
+  printf '\nLeft out, --all runs them: linters, the wheel, sanitizers, the fuzzers.\n'
 fi
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"

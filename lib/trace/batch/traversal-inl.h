@@ -6,9 +6,10 @@
 // octants take turns, one visit each, so that what a visit prefetches arrives while the others have
 // theirs.
 //
-// The room batch/ traces arrays of rays of which many meet the same nodes: bundles of them against a
-// node (node_tests-inl.h), lists of those that meet each child (ray_lists-inl.h), and leaves, with a
-// float filter in front (leaf_visit-inl.h, leaf_filter-inl.h). It knows ray/, nodes/ and triangles/.
+// The room batch/ traces arrays of rays of which many meet the same nodes: bundles of them against
+// a node (node_tests-inl.h), lists of those that meet each child (ray_lists-inl.h), and leaves,
+// with a float filter in front (leaf_visit-inl.h, leaf_filter-inl.h). It knows ray/, nodes/ and
+// triangles/.
 #if defined(SOBB_TRACE_BATCH_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_BATCH_TRAVERSAL_INL_H
 #undef SOBB_TRACE_BATCH_TRAVERSAL_INL_H

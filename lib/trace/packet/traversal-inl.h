@@ -3,8 +3,8 @@
 //
 // The room packet/ traces neighbours that are alike: which fit together (packet_setup-inl.h), their
 // beams (packet_rays-inl.h) against nodes (packet_nodes-inl.h, packet_table-inl.h) and triangles
-// (packet_triangles-inl.h); trace_packets-inl.h gives rays that fit in no packet to single/. It knows
-// ray/, nodes/, triangles/ and single/.
+// (packet_triangles-inl.h); trace_packets-inl.h gives rays that fit in no packet to single/. It
+// knows ray/, nodes/, triangles/ and single/.
 #if defined(SOBB_TRACE_PACKET_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_PACKET_TRAVERSAL_INL_H
 #undef SOBB_TRACE_PACKET_TRAVERSAL_INL_H

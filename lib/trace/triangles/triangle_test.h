@@ -13,7 +13,8 @@
 //
 // The room triangles/ is a ray against the triangles of a leaf: this test, its form in lanes
 // (watertight_lanes-inl.h), four triangles at once (watertight_ray-inl.h), lists of candidates
-// (candidates-inl.h), and the seam at which a candidate becomes a hit (acceptance.h). It knows ray/.
+// (candidates-inl.h), and the seam at which a candidate becomes a hit (acceptance.h). It knows
+// ray/.
 #pragma once
 
 #include <hwy/base.h>

@@ -8,8 +8,8 @@
 // node before it, and a mispredicted branch keeps the processor from looking further ahead.
 //
 // The room wave/ traces arrays of rays that diverge: the rays of a wave and their queues
-// (wave_memory-inl.h), what a visit does with a node's children (wave_children-inl.h), and the turns
-// (this file). It knows ray/, nodes/ and triangles/.
+// (wave_memory-inl.h), what a visit does with a node's children (wave_children-inl.h), and the
+// turns (this file). It knows ray/, nodes/ and triangles/.
 #if defined(SOBB_TRACE_WAVE_TRAVERSAL_INL_H) == defined(HWY_TARGET_TOGGLE)  // once per target
 #ifdef SOBB_TRACE_WAVE_TRAVERSAL_INL_H
 #undef SOBB_TRACE_WAVE_TRAVERSAL_INL_H
