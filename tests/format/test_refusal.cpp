@@ -314,7 +314,7 @@ TEST(FormatRefusalAabb, DirectionsAndBasesAreTheAxes) {
 // Deeper than the header may say: it lies, and the walk notices.
 TEST(FormatRefusalTree, TooDeep) {
   SmallFile chain = test::make_chain(kMaxDepth + 1);
-  chain.header().depth = kMaxDepth;
+  chain.fields.depth = kMaxDepth;
   chain.seal();
   const auto error = test::error_of(chain.bytes());
   ASSERT_TRUE(error);
@@ -325,7 +325,7 @@ TEST(FormatRefusalTree, TooDeep) {
 // Of several faults the one with the lowest index is told, whatever thread comes to it first.
 TEST(FormatRefusalOrder, DoesNotDependOnThreads) {
   SmallFile chain = test::make_chain(20000);
-  chain.header().depth = 1;
+  chain.fields.depth = 1;
   for (const int index : {19999, 12000, 3001, 3000}) chain.node<4>(index).slab[0][0][0] = kNaN;
   chain.seal();
   for (const uint32_t threads : {0u, 1u, 2u, 3u}) {

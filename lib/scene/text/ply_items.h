@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "scene/input/number.h"
 #include "scene/input/read_progress.h"
-#include "scene/text/number.h"
 #include "scene/text/ply_header.h"
 #include "scene/text/text_reader.h"
 

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "scene/input/ascii.h"
-#include "scene/text/number.h"
+#include "scene/input/number.h"
 
 namespace sobb {
 namespace {

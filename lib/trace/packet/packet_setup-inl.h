@@ -46,8 +46,7 @@ HWY_INLINE void spread_beams(const float* from, float* to) {
   }
 }
 
-// Returns where rays may meet: where the first begins, or if the last begins elsewhere, where the
-// first ends.
+// Returns where rays may meet: where the first begins, or if the last does not, where it ends.
 template <bool kOwnOrigins>
 HWY_INLINE PacketFocus find_focus(const sobb_ray& first, const sobb_ray& last) {
   PacketFocus focus = {{first.origin[0], first.origin[1], first.origin[2]}, false};
@@ -88,8 +87,8 @@ class PacketSetup {
   using Doubles = hn::CappedTag<double, 4>;
   using DoublesAsFloats = hn::Rebind<float, Doubles>;
 
-  // Loads as many rays as a vector has lanes. Returns which of them fit. (That a direction is not
-  // zero goes_along() tells, and that an origin is finite begins_there() or ends_there().)
+  // Loads as many rays as a vector has lanes. Returns which of them fit. (Of the parts of validity
+  // goes_along() covers a zero direction, begins_there() and ends_there() the origin.)
   HWY_INLINE uint64_t load(const sobb_ray* rays, size_t i) {
     const RayFloats d;
     const RayVectors some(rays + i);
@@ -221,12 +220,10 @@ class PacketSetup {
         hn::Store(hn::DemoteTo(df, hn::Mul(hn::Sub(s, middle), sign)), df, packet_.slope[k] + i);
       }
     }
-    if constexpr (kOwnOrigins) {
-      for (int k = 0; k < 3; ++k) {
-        for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
-          const auto o = hn::PromoteTo(d, hn::Load(df, origin_[axis[k]] + i));
-          hn::Store(o, d, packet_.origin[k] + i);
-        }
+    for (int k = 0; kOwnOrigins && k < 3; ++k) {
+      for (size_t i = 0; i < kSize; i += hn::MaxLanes(d)) {
+        const auto o = hn::PromoteTo(d, hn::Load(df, origin_[axis[k]] + i));
+        hn::Store(o, d, packet_.origin[k] + i);
       }
     }
   }

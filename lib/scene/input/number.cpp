@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See number.h.
-#include "scene/text/number.h"
+#include "scene/input/number.h"
 
 #include <algorithm>
 #include <cfloat>
