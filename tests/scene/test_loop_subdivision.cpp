@@ -61,7 +61,8 @@ size_t loose_edges(const Scene& scene) {
   }
   std::ranges::sort(edges);
   const auto count = [&](uint32_t from, uint32_t to) {
-    return std::ranges::equal_range(edges, std::pair(from, to)).size();
+    const auto [begin, end] = std::equal_range(edges.begin(), edges.end(), std::pair(from, to));
+    return end - begin;
   };
   return size_t(std::ranges::count_if(edges, [&](const auto& edge) {
     return count(edge.first, edge.second) != 1 || count(edge.second, edge.first) != 1;
