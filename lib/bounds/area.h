@@ -29,15 +29,15 @@ inline double dot(const Direction& a, const Direction& b) {
 // det[a b c], the volume that three normals span.
 double determinant(const Direction& a, const Direction& b, const Direction& c);
 
-// Slab form: 2 (d0 d1 + d1 d2 + d2 d0) / |det[n0 n1 n2]|, d the slabs' widths over the lengths of
-// their normals being 1 (EG25, equation 3).
+// The area by the slab form, 2 (d0 d1 + d1 d2 + d2 d0) / |det[n0 n1 n2]|, where d are the widths of
+// the slabs and the normals have length 1 (EG25, equation 3).
 double slab_area(const Direction normal[3], const double width[3]);
 
-// The edges of the parallelepiped of three slabs: e_i is parallel to the other two slabs and
-// crosses slab i, e_i = d_i (n_j x n_l) / det.
+// Computes the edges of the parallelepiped of three slabs: e_i = d_i (n_j x n_l) / det crosses slab
+// i and is parallel to the other two.
 void slab_edges(const Direction normal[3], const double width[3], Vector edge[3]);
 
-// Edge form: 2 (|e0 x e1| + |e1 x e2| + |e2 x e0|) (EG25, equation 2).
+// The area by the edge form, 2 (|e0 x e1| + |e1 x e2| + |e2 x e0|) (EG25, equation 2).
 double edge_area(const Vector edge[3]);
 
 }  // namespace sobb

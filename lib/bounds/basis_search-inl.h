@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for the basis of least area, of whatever has an area in every basis. Included once for
-// each Highway target.
+// Searches the basis of least area, for anything that has an area in every basis.
 //
-// Exact, to the last bit: rounded sums and products grow with their operands, so a bound that is
-// computed from lesser operands as an area is from its own is no more than that area as computed.
-// Pairs bounded above the least area found are left out, and no triple is lost with them.
+// The search is exact to the last bit. Rounded sums and products grow with their operands, so a
+// bound computed like an area but from lesser operands is no more than that area as computed. Pairs
+// whose bound is above the least area found are left out, and no better triple is lost with them.
 //
-// Volumes is what is searched:
-//   const float* extents()           a row: the narrowest slab's direction has the least
-//   float square(b)                  of a width, for strategy k
-//   void bound_pairs(a, bound)       a row over b: half the area of a basis (a, b, c) is no less
-//                                    than the bound of b, or than that of c
-//   void bound_any_pairs(a, bound)   likewise, but a basis has such a bound for one of its three
-//                                    pairs only, in one order
-//   void bound_firsts(bound)         a row over a: no more than any bound of bound_any_pairs(a)
-//   Pair pair(a, b)                  of the a whose pairs were bounded last
-//   Vec<Tag> Pair::operator()(c)     half the areas of the bases with a and b and every third from
-//                                    c on; infinite or NaN for flat triples
+// Volumes is what is searched. It offers, for directions a, b, c:
+//   const float* extents()           a row whose least entry is the narrowest slab's direction
+//   float square(b)                  the square of a width, for strategy k
+//   void bound_pairs(a, bound)       fills a row over b: half the area of a basis (a, b, c) is at
+//                                    least bound[b], or at least bound[c]
+//   void bound_any_pairs(a, bound)   fills such a row where a basis may have its bound in the row
+//                                    of only one of its directions
+//   void bound_firsts(bound)         fills a row over a: at most any bound of bound_any_pairs(a)
+//   Pair pair(a, b)                  a pair whose a was bounded last
+//   Vec<Tag> Pair::operator()(c)     half the areas of the bases (a, b, c), (a, b, c + 1) and so
+//                                    on, one per lane; infinite or NaN for flat triples
 #if defined(SOBB_BOUNDS_BASIS_SEARCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BOUNDS_BASIS_SEARCH_INL_H
 #undef SOBB_BOUNDS_BASIS_SEARCH_INL_H
@@ -79,7 +78,7 @@ class BasisSearch {
     for_each_within(bound, [&](uint32_t b) HWY_ATTR { try_pair(a, b); });
   }
 
-  // Tries all thirds of a pair at once.
+  // Tries all third directions of a pair.
   void try_pair(uint32_t a, uint32_t b) {
     const Tag d;
     const auto half_areas = volumes_.pair(a, b);
@@ -102,8 +101,8 @@ class BasisSearch {
     code_ = code;
   }
 
-  // The second direction of strategy k: least d_b^2 / (1 - cos^2), the parallelogram's extent
-  // across slab a.
+  // The second direction by strategy k: the one of least d_b^2 / (1 - cos^2), the parallelogram's
+  // extent across slab a.
   uint32_t second(uint32_t a) const {
     alignas(64) float extent[kMaxSearchedDirections];
     const float* inverse_sine = table_.inverse_sine_squares(a);
@@ -112,7 +111,7 @@ class BasisSearch {
     return least_of(extent);
   }
 
-  // The index of the least of a row's values; of equal ones, the lowest.
+  // The index of the least of a row's values; the lowest of equal ones.
   uint32_t least_of(const float* value) const {
     const Tag d;
     auto least = hn::Set(d, INFINITY);
@@ -143,7 +142,7 @@ class BasisSearch {
 
   static uint32_t lowest(uint32_t bits) { return static_cast<uint32_t>(std::countr_zero(bits)); }
 
-  // A triple as a number: compared, its lowest index counts first.
+  // A triple as a number by which triples are compared: the lowest index first.
   static uint32_t code_of(uint32_t a, uint32_t b, uint32_t c) {
     const uint32_t low = std::min(std::min(a, b), c);
     const uint32_t high = std::max(std::max(a, b), c);
@@ -156,7 +155,7 @@ class BasisSearch {
 
   const BasisTable& table_;
   Volumes& volumes_;
-  // Finite, so that a flat triple is never taken.
+  // Finite, so that the search never takes a flat triple.
   float half_area_ = std::numeric_limits<float>::max();
   uint32_t code_ = code_of(0, 1, 2);
 };

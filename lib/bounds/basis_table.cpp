@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-// To vectors of eight, whatever the target's: all see the same rows.
+// Rounds up to vectors of eight, whatever the target's have: all targets read the same rows.
 uint32_t rounded_up(size_t count) {
   if (count > kMaxSearchedDirections) {
     fail(SOBB_ERROR_INVALID_ARGUMENT, "a search for bases of %zu directions; it takes up to %u",

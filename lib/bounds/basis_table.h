@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the search for a basis needs of its directions: one over |det| of every triple.
+// The table by which bases are searched: one over |det| of every triple of directions.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace sobb {
 
-// Triples flatter than this never bound anything: with two slabs of no width their area would be
-// 0 whatever the third, and a nearly singular one could win (and its corners lie anywhere).
+// Flatter triples are no bases: with two slabs of no width the area would be 0 whatever the third
+// direction, so a nearly singular triple could win, and its corners could lie anywhere.
 inline constexpr double kSmallestDeterminant = 0.02;
 
 // A search takes more directions than a file does.
@@ -24,19 +24,21 @@ class BasisTable {
   BasisTable(std::span<const Direction> directions, std::pmr::memory_resource& memory);
 
   uint32_t count() const { return count_; }
-  // The length of every row, in floats: the count rounded up to whole vectors. Rows are padded
-  // with infinities and aligned to nothing.
+  // The length of every row in floats: the count, rounded up to whole vectors. Rows are padded with
+  // infinities; they are not aligned.
   uint32_t stride() const { return stride_; }
 
-  // 1 / |det[n_i n_j n_l]|, infinite for a triple flatter than kSmallestDeterminant; a row over l.
-  // The same bits for every order of the three.
+  // A row over l of 1 / |det[n_i n_j n_l]|, infinite for triples flatter than kSmallestDeterminant.
+  // Every order of the three has the same bits.
   const float* inverse_determinants(uint32_t i, uint32_t j) const {
     return &inverse_[(size_t{i} * stride_ + j) * stride_];
   }
-  // The least of the row above, so that no basis with i and j has less; a row over j.
+  // A row over j of the least entry of inverse_determinants(i, j): no basis with i and j has less.
   const float* least_inverses(uint32_t i) const { return &least_[size_t{i} * stride_]; }
-  float least_inverse() const { return least_of_all_; }  // 1, but for rounding, given the axes
-  // 1 / (1 - (n_i . n_j)^2), infinite where i and j are in no basis; a row over j.
+  float least_inverse() const {
+    return least_of_all_;
+  }  // 1 within rounding where the axes are in the table
+  // A row over j of 1 / (1 - (n_i . n_j)^2), infinite where no basis has i and j.
   const float* inverse_sine_squares(uint32_t i) const {
     return &inverse_sine_[size_t{i} * stride_];
   }

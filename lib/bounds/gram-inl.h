@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The basis that several volumes share, by their Gram matrix. Included once for each Highway
-// target.
+// Chooses the basis that several volumes share, by their Gram matrix.
 //
 // The area is computed from the three entries in rising order,
 //   A(a, b, c) = 2 ((least + middle) + greatest) / |det[n_a n_b n_c]|  of  G_ab, G_bc, G_ca
-// the same bits for every order of the directions, and no less where an entry is replaced by a
-// lesser one: by another of the three, or by the least entry of a column.
+// which has the same bits for every order of the directions. It does not rise when an entry is
+// replaced by a lesser one: by another of the three, or by the least entry of a column.
 #if defined(SOBB_BOUNDS_GRAM_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BOUNDS_GRAM_INL_H
 #undef SOBB_BOUNDS_GRAM_INL_H
@@ -30,7 +29,7 @@ void widths(const Kdop& kdop, float scale, float width[kMaxDirections]) {
 
 void add_to_gram(const Kdop& kdop, float scale, float weight, Gram& gram) {
   const Tag d;
-  // The weight's root in both factors: the matrix is symmetric to the last bit.
+  // The root of the weight is in both factors, so the matrix is symmetric to the last bit.
   alignas(64) float width[kMaxDirections];
   widths(kdop, scale * std::sqrt(weight), width);
   for (uint32_t i = 0; i < kMaxDirections; ++i) {
@@ -59,7 +58,7 @@ class GramVolumes {
   const float* extents() const { return diagonal_; }
   float square(uint32_t b) const { return diagonal_[b]; }
 
-  // Where b is the one of the two others with the lesser entry beside a.
+  // The bound holds for the one of the two others whose entry beside a is lesser.
   void bound_pairs(uint32_t a, float* bound) const {
     const Tag d;
     for (uint32_t b = 0; b < table_.stride(); b += hn::Lanes(d)) {
@@ -68,7 +67,8 @@ class GramVolumes {
     }
   }
 
-  // Where the pair's entry is the least of the three. Pairs with lower directions are theirs.
+  // The bound holds for the pair whose entry is the least of the three. The rows of lower
+  // directions have the pairs with these.
   void bound_any_pairs(uint32_t a, float* bound) const {
     const Tag d;
     for (uint32_t b = 0; b < table_.stride(); b += hn::Lanes(d)) {
@@ -78,7 +78,7 @@ class GramVolumes {
     std::fill(bound, bound + a, INFINITY);
   }
 
-  // No entry is less than the least of its column.
+  // The bound holds since no entry is less than the least of its column.
   void bound_firsts(float* bound) const {
     const Tag d;
     const auto inverse = hn::Set(d, table_.least_inverse());
@@ -113,7 +113,7 @@ class GramVolumes {
   Pair pair(uint32_t a, uint32_t b) const { return {*this, a, b}; }
 
  private:
-  // Infinite where no basis has the pair.
+  // Stores a bound, infinite where no basis has the pair.
   void store_bound(uint32_t a, uint32_t b, hn::Vec<Tag> sum, float* bound) const {
     const Tag d;
     const auto infinity = hn::Set(d, INFINITY);
@@ -122,7 +122,7 @@ class GramVolumes {
               bound + b);
   }
 
-  // In rising order of the terms.
+  // Adds the terms in rising order.
   static hn::Vec<Tag> sum_of(hn::Vec<Tag> x, hn::Vec<Tag> y, hn::Vec<Tag> z) {
     const auto low = hn::Min(x, y);
     const auto high = hn::Max(x, y);

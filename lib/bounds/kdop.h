@@ -9,8 +9,8 @@
 
 namespace sobb {
 
-// Slabs lower <= n . (p - c) <= upper, conservative: outward of the exact ones by the rounding of
-// the dot product. Entries beyond the table's count are zero.
+// The slabs lower <= n . (p - c) <= upper. They are conservative: wider than the exact ones by the
+// rounding of the dot product. Entries beyond the table's count are zero.
 struct alignas(64) Kdop {
   float lower[kMaxDirections];
   float upper[kMaxDirections];

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The basis of one volume, from its widths along every direction. Included once for each Highway
-// target.
+// Chooses the basis of one volume by its widths along every direction.
 //
 // The area is computed from the narrowest slab a and the two others, b and c:
 //   A(a; b, c) = 2 (d_b d_c + d_a (d_b + d_c)) / |det[n_a n_b n_c]|
-// the same bits for either order of b and c (and of a and b, where they are equally wide). With b
-// the narrower of these two, half of it is at least
+// which has the same bits for either order of b and c (and of a and b, where they are equally
+// wide). If b is the narrower of these two, half of the area is at least
 //   B(a; b) = (d_b d_b + d_a (d_b + d_b)) min_c 1 / |det[n_a n_b n_c]|
 #if defined(SOBB_BOUNDS_ONE_VOLUME_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOBB_BOUNDS_ONE_VOLUME_INL_H
@@ -28,8 +27,9 @@ class OneVolume {
   const float* extents() const { return width_; }
   float square(uint32_t b) const { return width_[b] * width_[b]; }
 
-  // Of the b no narrower than a. The others count as wide as a from here on: as thirds they then
-  // seem no smaller than they are, and their pairs with a are their own.
+  // Bounds the pairs of a with directions no narrower than a; the others have such pairs in rows of
+  // their own. Here the others count as wide as a, so that as third directions they never make an
+  // area seem smaller than it is.
   void bound_pairs(uint32_t a, float* bound) {
     const Tag d;
     const auto infinity = hn::Set(d, INFINITY);
@@ -48,7 +48,7 @@ class OneVolume {
 
   void bound_any_pairs(uint32_t a, float* bound) { bound_pairs(a, bound); }
 
-  // Both others are as wide as a at least.
+  // The bound holds since both others are at least as wide as a.
   void bound_firsts(float* bound) const {
     const Tag d;
     const auto least = hn::Set(d, table_.least_inverse());
@@ -83,7 +83,7 @@ class OneVolume {
   Pair pair(uint32_t a, uint32_t b) const { return {*this, a, b}; }
 
  private:
-  // Half the area times |det|. No fused multiply-add: the file's bytes rest on it.
+  // Half the area, times |det|. No fused multiply-add: the file's bytes rest on it.
   static hn::Vec<Tag> half_faces(hn::Vec<Tag> a, hn::Vec<Tag> b, hn::Vec<Tag> c) {
     return hn::Add(hn::Mul(b, c), hn::Mul(a, hn::Add(b, c)));
   }

@@ -13,12 +13,12 @@
 
 namespace sobb {
 
-// XXH3-64 of header and section table, the header's own checksum taken as zero. `front` is those
-// bytes: at most kMaxSections sections.
+// XXH3-64 of the header and the section table, the header's own checksum taken as zero. `front` is
+// their bytes; there are at most kMaxSections sections.
 uint64_t header_checksum(std::span<const std::byte> front);
 
-// XXH3-64 over the XXH3-64 of each MiB, so that a large section is checked in parallel. `scratch`
-// holds eight bytes a MiB meanwhile; `stage`, if any, is advanced by the bytes.
+// XXH3-64 over the XXH3-64 of each MiB, so that a large section is checked in parallel. Meanwhile
+// `scratch` holds eight bytes per MiB. `stage`, which may be null, counts bytes.
 uint64_t section_checksum(std::span<const std::byte> section, const Scheduler& scheduler,
                           std::pmr::memory_resource& scratch, ProgressStage* stage = nullptr);
 

@@ -18,10 +18,11 @@
 namespace sobb {
 namespace {
 
-// Between pieces of this size the caller may stop.
+// Reading and copying report progress, and may be cancelled, after each piece of this size.
 constexpr uint64_t kReadAtOnce = uint64_t{1} << 24;
 
-// Opens a regular file and tells its size. Without O_NONBLOCK a FIFO would wait for a writer.
+// Opens a regular file and finds its size. Without O_NONBLOCK opening a FIFO would wait for a
+// writer.
 FileDescriptor open_regular(const char* path, uint64_t& size) {
   FileDescriptor file(open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status;

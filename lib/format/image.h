@@ -13,7 +13,7 @@
 
 namespace sobb {
 
-// Owns the bytes of one file image, private (from a Memory) or mapped. Move-only.
+// Owns the bytes of one file image, which are private (from a Memory) or mapped. Move-only.
 class Image {
  public:
   Image() = default;
@@ -21,28 +21,29 @@ class Image {
   static Image allocate(std::shared_ptr<Memory> memory, uint64_t size) {
     return allocate(std::move(memory), size, size);
   }
-  // The same, of which only the first `zeroed` bytes are zero; the others are to be written.
+  // Private bytes of which only the first `zeroed` are zero; the others are to be written.
   static Image allocate(std::shared_ptr<Memory> memory, uint64_t size, uint64_t zeroed);
   // A private copy of a regular file. Progress runs from 0 to `progress_end`. Errors: FILE_OPEN,
   // FILE_READ, OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED.
   static Image read(std::shared_ptr<Memory> memory, const char* path, Progress& progress,
                     double progress_end);
-  // The same of bytes in memory.
+  // A private copy of bytes in memory. Progress runs likewise. Errors: OUT_OF_MEMORY, MEMORY_LIMIT,
+  // CANCELLED.
   static Image copy(std::shared_ptr<Memory> memory, std::span<const std::byte> bytes,
                     Progress& progress, double progress_end);
-  // The file where it lies, read-only. Errors: FILE_OPEN, FILE_READ.
+  // A read-only mapping of a regular file. Errors: FILE_OPEN, FILE_READ.
   static Image map(const char* path);
 
   Image(Image&& other) noexcept;
   Image& operator=(Image&& other) noexcept;
   ~Image();
 
-  std::span<std::byte> bytes() { return {data_, size_}; }  // not of a mapping
+  std::span<std::byte> bytes() { return {data_, size_}; }  // private images only
   std::span<const std::byte> bytes() const { return {data_, size_}; }
-  Memory& memory() { return *memory_; }  // not of a mapping
+  Memory& memory() { return *memory_; }  // private images only
 
  private:
-  Image(std::shared_ptr<Memory> memory, uint64_t size);  // bytes as they come
+  Image(std::shared_ptr<Memory> memory, uint64_t size);  // leaves the bytes unset
 
   std::byte* data_ = nullptr;
   uint64_t size_ = 0;

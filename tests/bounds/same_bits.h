@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of floats that are the same, zeros' signs and all.
+// Compares arrays of floats by their bits, so that the signs of zeros count.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The area of a skewed box: both forms agree, and equal the known values.
+// Both forms of a skewed box's area agree, and equal known values.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -40,7 +40,7 @@ TEST(Area, OfTheAxesIsTheAabbs) {
 }
 
 TEST(Area, OfASkewedBoxCountedByHand) {
-  // |x|, |y|, |x + z| at most 1/2: faces of area 1, 1 and sqrt 2, each twice.
+  // The box |x|, |y|, |x + z| <= 1/2 has two faces each of area 1, 1 and sqrt 2.
   const auto half = static_cast<float>(std::sqrt(0.5));
   const Direction normal[3] = {kX, kY, {half, 0, half}};
   const double width[3] = {1, 1, half};
@@ -68,7 +68,7 @@ TEST(Area, FormsAgreeOnRandomSkewedBoxes) {
       for (Direction& n : normal) n = random_direction(random);
     } while (std::fabs(determinant(normal[0], normal[1], normal[2])) < 0.01);
     for (double& d : width) d = std::exp(20 * random.uniform() - 10);
-    // The edge form's normals need not be of length 1 exactly, the slab form takes them to be.
+    // The slab form takes normals to have length 1 exactly, the edge form does not.
     const double slab = slab_area(normal, width);
     ASSERT_NEAR(edge_form(normal, width) / slab, 1, 1e-6) << "seed " << kSeed << " round " << round;
   }

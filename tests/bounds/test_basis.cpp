@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// choose(): each strategy finds what its description says, from every instruction set.
+// choose() finds what each strategy's description says, on every instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Table {
   }
 };
 
-// The k-DOP of a box of random shape, turned at random: needles, sheets, lumps.
+// The k-DOP of a randomly turned box of random shape: a needle, a sheet, a lump.
 Kdop random_kdop(Random& random, const Table& table) {
   std::vector<RelativePoint> points;
   float axis[3][3];
@@ -56,7 +56,7 @@ Kdop random_kdop(Random& random, const Table& table) {
   return kdop;
 }
 
-// Of one to eight volumes.
+// The Gram matrix of one to eight volumes.
 Gram random_gram(Random& random, const Table& table) {
   Gram gram = {};
   for (uint32_t i = 1 + random.below(8); i > 0; --i) {
@@ -66,7 +66,7 @@ Gram random_gram(Random& random, const Table& table) {
   return gram;
 }
 
-// Entries of few distinct values, as volumes along the axes have them.
+// A matrix whose entries have few distinct values, as volumes along the axes have.
 void make_ties(Random& random, Gram& gram) {
   const float step = random.between(0.05, 0.5);
   for (auto& row : gram.sum) {
@@ -117,7 +117,7 @@ struct Scalar {
   }
 };
 
-// Tries every triple that the strategy describes, by rising indices: the first of equals stays.
+// Tries every triple that the strategy describes, by rising indices; the first of equals stays.
 BasisChoice choose_scalar(const Table& table, const Gram& gram, sobb_strategy strategy) {
   Scalar search{table, gram};
   const uint32_t count = table.basis.count();
@@ -136,7 +136,7 @@ BasisChoice choose_scalar(const Table& table, const Gram& gram, sobb_strategy st
   return {search.basis, 2 * search.least};
 }
 
-// In double, each triple once: what k^3 is to find, within rounding.
+// Tries each triple in double: the area that k^3 has to find, within rounding.
 double least_area(const Table& table, const Gram& gram) {
   double least = INFINITY;
   for (uint32_t i = 0; i < table.basis.count(); ++i) {
@@ -199,7 +199,7 @@ TEST(Basis, IsNeverNearlySingularHoweverFlatTheInput) {
   for (const uint32_t k : {32U, 48U, 64U}) {
     const Table table(k);
     for (int round = 0; round < 200; ++round) {
-      // Some slabs without width at all: any third to two of them makes an area of 0.
+      // Some slabs have no width at all: with two of them, any third direction makes an area of 0.
       Kdop kdop = random_kdop(random, table);
       for (uint32_t i = 0; i < table.basis.count(); ++i) {
         if (random.below(2) == 0) kdop.lower[i] = kdop.upper[i];

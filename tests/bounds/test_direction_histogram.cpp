@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Peaks of directions, and principal axes.
+// A histogram finds the peaks of directions, and their principal axes.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The default direction sets keep what docs/direction-tables.md says of them.
+// The default direction sets are what docs/direction-tables.md says.
 #include "bounds/directions/direction_table.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::vector<Vector> vectors(std::span<const Direction> directions) {
   return result;
 }
 
-// Of the lines along `lines`, the one nearest to `direction`: the cosine of the angle.
+// The cosine of the angle between `direction` and the nearest of the lines along `lines`.
 double nearest(const std::vector<Vector>& lines, Vector direction) {
   double cosine = 0;
   for (Vector line : lines) cosine = std::max(cosine, std::abs(dot(line, direction)));
@@ -48,9 +48,9 @@ double smallest_angle(const std::vector<Vector>& lines) {
   return degrees(cosine);
 }
 
-// The direction that is furthest from every line is equally far from three of them, so that one of
-// the circles through a, b and c, or their opposites, is the largest empty one. The generator finds
-// it otherwise, by a convex hull.
+// The direction that is furthest from every line is equally far from three of them. So the largest
+// empty circle passes through some a, b and c, or their opposites. The generator finds it in
+// another way, by a convex hull.
 double covering_radius(const std::vector<Vector>& lines) {
   double cosine = 1;
   const auto try_circle = [&](Vector a, Vector b, Vector c) {

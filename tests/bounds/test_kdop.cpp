@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// fit(): slabs hold every point in exact arithmetic, stand off no more than they say, and are the
-// same bits from every instruction set.
+// fit() makes slabs that hold every point in exact arithmetic, are no wider than stated, and have
+// the same bits on every instruction set.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,8 @@
 namespace sobb::test {
 namespace {
 
-// 113 bits: n . (p - c) of floats is exact where their exponents are less than some 60 apart.
+// A type of 113 bits, in which n . (p - c) of floats is exact if exponents differ by less than
+// about 60.
 __extension__ using Exact = __float128;
 
 constexpr double kUnit = 0x1p-24;
@@ -36,7 +37,7 @@ struct Cloud {
   }
 };
 
-// Points of a size about a centre, or all on one plane, line or point.
+// Points of some size about a centre; or all of them on one plane, line or point.
 Cloud random_cloud(Random& random, double size, double distance) {
   Cloud cloud;
   for (float& c : cloud.centre) c = random.between(-distance, distance);
@@ -67,7 +68,7 @@ Exact along(const DirectionTable& table, uint32_t k, const Cloud& cloud, const P
          Exact(table.z[k]) * difference(2);
 }
 
-// The slack that the header states, doubled for the rounding of what is measured here.
+// Twice the slack that the header states, for the rounding of the measurement here.
 double allowed_slack(const DirectionTable& table, uint32_t k, const Cloud& cloud) {
   double largest[3] = {};
   for (const Point& point : cloud.points) {

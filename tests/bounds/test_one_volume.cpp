@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// choose_one(): what its pruned searches find is what trying every triple finds, to the last bit.
+// choose_one() finds by its pruned search what trying every triple finds, to the last bit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,8 +38,8 @@ struct Table {
       : directions(std::move(of)), basis(directions, *std::pmr::get_default_resource()) {}
 };
 
-// The widths of an ellipsoid of random shape, from a ball (`elongation` 0) to needles and sheets,
-// turned at random; rounded to few digits, so that there are ties.
+// The widths of a randomly turned ellipsoid, from a ball (`elongation` 0) to needles and sheets,
+// rounded to few digits so that there are ties.
 std::vector<float> random_widths(Random& random, const Table& table, double elongation) {
   double axis[3][3];
   for (auto& row : axis) {
@@ -59,7 +59,7 @@ std::vector<float> random_widths(Random& random, const Table& table, double elon
   return width;
 }
 
-// One in three is of few distinct widths, one in three has slabs without width.
+// One volume in three has few distinct widths, one in three has slabs without width.
 void make_ties(Random& random, const Table& table, std::vector<float>& width) {
   const uint32_t kind = random.below(3);
   for (uint32_t k = 0; k < table.basis.count(); ++k) {
@@ -73,7 +73,7 @@ struct EveryTriple {
   const std::vector<float>& width;
   TripleChoice best;
 
-  // From the narrowest and the two others, as defined in choose_one-inl.h.
+  // The area from the narrowest slab and the two others, as one_volume-inl.h defines it.
   void try_triple(uint32_t i, uint32_t j, uint32_t l) {
     float d[3] = {width[i], width[j], width[l]};
     std::sort(d, d + 3);
@@ -105,7 +105,7 @@ bool among(uint32_t wanted, uint32_t i, uint32_t j, uint32_t l) {
   return i == wanted || j == wanted || l == wanted;
 }
 
-// Triples by rising indices, so that the first of equals stays.
+// Tries triples by rising indices, so that the first of equals stays.
 TripleChoice try_all(const Table& table, const std::vector<float>& width, sobb_strategy strategy) {
   EveryTriple search{table, width, {}};
   const uint32_t first = search.narrowest();
@@ -187,7 +187,7 @@ TEST(OneVolume, IsNeverNearlySingular) {
   constexpr uint64_t kSeed = 97;
   Random random(kSeed);
   std::vector<Direction> directions = random_directions(random, 30);
-  // Two lines that are nearly another's.
+  // Two of the directions are nearly equal to others.
   directions.push_back(directions[3]);
   directions.push_back({directions[5].x, directions[5].y, std::nextafter(directions[5].z, 2.0F)});
   const Table table(directions);
@@ -211,8 +211,8 @@ TEST(OneVolume, RefusesMoreDirectionsThanItSearches) {
   EXPECT_ANY_THROW(BasisTable(directions, *std::pmr::get_default_resource()));
 }
 
-// Of a cube's table with a diagonal that is a little narrower, k takes the diagonal; the frame is
-// better.
+// Where a cube's diagonal is a little narrower than its sides, strategy k takes the diagonal,
+// though the frame has less area.
 TEST(OrFrame, IsTakenWhereItHasLessArea) {
   const float kThird = std::sqrt(1.0F / 3);
   const Direction directions[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {kThird, kThird, kThird}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cutting triangles: the parts cover the triangle, whatever is cut off and however it lies.
+// The parts of a cut triangle cover it, whatever is cut off and however the triangle lies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +32,8 @@ bool within(const Box& part, const Box& whole) {
   return true;
 }
 
-// A triangle of some kind: any, a sliver, flat along an axis, a line, a point; sized and placed.
+// Makes a triangle of random kind, size and place: any, a sliver, flat along an axis, a line, a
+// point.
 Mesh random_triangle(Random& random, Soup& soup) {
   const uint32_t kind = random.below(6);
   const double size = std::pow(10.0, random.between(-12, 12));
@@ -52,7 +53,8 @@ Mesh random_triangle(Random& random, Soup& soup) {
   return {soup.view(), Scheduler(1, nullptr)};
 }
 
-// No direction sees a sample stand out of the polygon by more than the rounding of its vertices.
+// Expects that along no direction a sample stands out of the polygon by more than the rounding of
+// its vertices.
 void expect_covers(const double polygon[9][3], int count, const Sample& p,
                    const std::string& what) {
   static constexpr double kDirections[][3] = {{1, 0, 0},  {0, 1, 0},  {0, 0, 1},  {1, 1, 1},
@@ -92,7 +94,7 @@ TEST(Clip, PartsCoverTheTriangle) {
     const Corners corners(mesh, 0);
     std::vector<Sample> samples = sample_triangle(corners);
     Box box = corners.box();
-    // Down into one part, as spatial splits of splits do, the samples in it with us.
+    // Each step goes on with one of the parts, as spatial splits of splits do, and its samples.
     for (int depth = 0; depth < 8; ++depth) {
       const std::string what = "seed " + std::to_string(kSeed) + " round " + std::to_string(round) +
                                " depth " + std::to_string(depth);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Wide nodes: every reference in one leaf, depths and counts as stated, and of a node's children
-// the one with the most area for each of its triangles last.
+// Wide nodes hold every reference in one leaf, have the depths and counts that are stated, and
+// order children by rising area per triangle.
 #include "builder/wide/collapse.h"
 
 #include <gtest/gtest.h>
@@ -22,15 +22,15 @@ struct Subtree {
   uint32_t depth;
 };
 
-// Walks the nodes as the file will have them.
+// Walks the nodes in the layout that the file will have.
 class Walker {
  public:
   Walker(const WideTopology& wide, const Mesh& mesh)
       : references_(wide.references), mesh_(mesh), met_(references_.primitives.size()) {
     nodes_.assign(wide.top.nodes.begin(), wide.top.nodes.end());
-    for (const Treelet& part : wide.subtrees) {
-      EXPECT_EQ(part.first_node, nodes_.size());
-      nodes_.insert(nodes_.end(), part.nodes.begin(), part.nodes.end());
+    for (const Treelet& treelet : wide.subtrees) {
+      EXPECT_EQ(treelet.first_node, nodes_.size());
+      nodes_.insert(nodes_.end(), treelet.nodes.begin(), treelet.nodes.end());
     }
   }
 
@@ -77,7 +77,7 @@ class Walker {
   std::vector<uint32_t> met_;  // how often, by reference
 };
 
-TEST(Collapse, OrdersChildrenByTheAreaOfEachTriangle) {
+TEST(Collapse, OrdersChildrenByAreaPerTriangle) {
   for (const Soup& soup : {random_soup(1, 20'000), random_soup(2, 400, 1.5), sliver_soup(3, 9'000),
                            identical_soup(100), degenerate_soup(4, 500), random_soup(5, 1),
                            placed(random_soup(6, 400, 1.5), 0x1p50, 1e3)}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh: what is refused, with which words; the summary.
+// A mesh refuses bad triangles in words that name the place; its summary bounds and hashes all.
 #include "builder/mesh.h"
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST(Mesh, ReadsAnyStride) {
     for (size_t i = 0; i < soup.vertices.size(); ++i) {
       vertices[i / 3 * floats + i % 3] = soup.vertices[i];
     }
-    // Not a float beyond the last vertex.
+    // The array ends with the last vertex: not a float lies beyond it.
     vertices.resize(vertices.size() - (floats - 3));
     sobb_triangles triangles = soup.view();
     triangles.vertices = vertices.data();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reinsertion: the same leaves under smaller boxes, the same tree for any number of threads.
+// Reinsertion keeps the leaves under smaller boxes, and makes the same tree for any number of
+// threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ namespace {
 
 constexpr ReinsertionEffort kAll = {4, 1};
 
-// A tree over leaves in the order they come in, halved, or one leaf and the rest.
+// Makes a tree over leaves in the order they come in: halves at every node, or a chain, where every
+// left child is a leaf.
 class TreeMaker {
  public:
   TreeMaker(const std::vector<Box>& leaves, bool chain, Memory& memory)
@@ -64,8 +66,8 @@ std::vector<Box> random_boxes(uint64_t seed, uint32_t count, double size) {
 }
 
 struct Walk {
-  std::vector<uint32_t> met;  // how often, by leaf
-  double area = 0;            // half of that of inner nodes
+  std::vector<uint32_t> met;  // how often each leaf was met
+  double area = 0;            // half the area of inner nodes
   uint32_t next_pair = 0;
   uint32_t depth = 0;
 };
@@ -130,7 +132,7 @@ TEST_F(Reinsertion, KeepsTheLeavesUnderSmallerBoxes) {
   }
 }
 
-// Two boxes far from each other, two times, paired the wrong way.
+// Two pairs of neighbours, far from each other, are paired the wrong way.
 TEST_F(Reinsertion, PutsNeighboursTogether) {
   const auto unit_at = [](float x) { return Box{{x, 0, 0}, {x + 1, 1, 1}}; };
   const std::vector<Box> leaves = {unit_at(0), unit_at(10), unit_at(1), unit_at(11)};
@@ -171,7 +173,7 @@ TEST_F(Reinsertion, IsTheSameForAnyNumberOfThreads) {
   }
 }
 
-// A chain as deep as files may be, of boxes that grow: to move one further down makes it deeper.
+// The chain is as deep as files may be, and of boxes that grow: moving one further down deepens it.
 TEST_F(Reinsertion, MakesNoTreeTooDeep) {
   for (const bool rising : {false, true}) {
     std::vector<Box> leaves(kMaxDepth + 1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables fitted to a mesh: the frame of what is built at right angles, the default set of what is
-// not; unit, perpendicular, the same however they are made.
+// A table fitted to a mesh begins with the frame of scenes built at right angles, and is the
+// default set for others. It is unit and perpendicular, and the same for any number of threads.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 

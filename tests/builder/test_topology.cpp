@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Topology: every triangle in a leaf, boxes that hold what is below, the same tree for any number
-// of threads.
+// A topology has every triangle in a leaf, in boxes that hold all below them, and is the same for
+// any number of threads and any instruction set.
 #include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
@@ -25,7 +25,7 @@ Soup flat_soup(uint64_t seed, uint32_t triangles) {
   return soup;
 }
 
-// Small triangles all over a cube, and a few long ones through them, which belong nowhere.
+// Small triangles all over a cube, and a few long ones through them, which fit into no small box.
 Soup needle_soup(uint64_t seed, uint32_t triangles) {
   Soup soup = random_soup(seed, triangles, 0.02);
   soup.name = "needles";
@@ -44,7 +44,7 @@ Soup needle_soup(uint64_t seed, uint32_t triangles) {
   return soup;
 }
 
-// A topology with all that it borrows.
+// A topology, and all that it borrows.
 struct Tree {
   Scheduler scheduler;
   Mesh mesh;
@@ -81,9 +81,9 @@ bool holds(const Box& outer, const Box& inner) {
   return true;
 }
 
-// What a walk down a tree has met.
+// The state of a walk down a tree.
 struct Walk {
-  std::vector<uint32_t> met;  // how often, by reference
+  std::vector<uint32_t> met;  // how often each reference was met
   uint32_t next_pair = 0;     // pairs come depth first
 };
 
@@ -173,13 +173,13 @@ TEST(Topology, SpatialSplitsCutLongTriangles) {
   EXPECT_GT(high.topology.root().count, 510u);
 }
 
-// Nothing overlaps: what splits add in references would save nothing.
+// Nothing overlaps, so the references that splits add would save nothing.
 TEST(Topology, SpatialSplitsStayAwayWhereTheyGainNothing) {
   const Tree high(random_soup(20, 5000, 1e-3), SOBB_QUALITY_HIGH, 1);
   EXPECT_EQ(high.topology.root().count, 5000u);
 }
 
-// Room for references that spatial splits add is a quarter of the triangles.
+// The references that spatial splits add have room for a quarter of the triangles.
 TEST(Topology, SpatialSplitsKeepTheirRoom) {
   for (const Soup& soup : {needle_soup(11, 2000), needle_soup(12, 5000)}) {
     const Tree high(soup, SOBB_QUALITY_HIGH, 1);
@@ -190,7 +190,7 @@ TEST(Topology, SpatialSplitsKeepTheirRoom) {
   }
 }
 
-// Sum of area times cost over the root's area: of inner nodes, and of leaves' blocks.
+// The sum of area times cost over inner nodes and leaves' blocks.
 double surface_area_cost(const Topology& topology, const TopologyNode& node) {
   if (node.is_leaf) return node.box.half_area() * ((node.count + 3) / 4);
   return node.box.half_area() + surface_area_cost(topology, topology.child(node, 0)) +
@@ -205,8 +205,8 @@ TEST(Topology, SpatialSplitsMakeLongNeedlesCheaper) {
             surface_area_cost(medium.topology, medium.topology.root()));
 }
 
-// A shell of few large triangles around many small ones: the centres of the shell lie all around
-// the core, but the core is a node of its own.
+// A shell of few large triangles lies around many small ones. The centres of the shell lie all
+// around the core, but the core becomes a node of its own.
 TEST(Topology, LargeTrianglesAreToldFromSmallOnes) {
   Soup soup = random_soup(14, 5000);
   const Soup shell = placed(random_soup(15, 20, 1.5), 1000, -500);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A built file, walked from the root: every point of every triangle lies in all volumes on the way
-// to a leaf that holds the triangle, in (near) exact arithmetic; the reader accepts the file.
+// In a built file every point of every triangle lies in all volumes on the way from the root to a
+// leaf that holds the triangle, in (near) exact arithmetic. The reader accepts the file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,8 @@ Built build_soup(const Soup& soup, const sobb_build_options& options) {
                std::make_shared<Memory>(), progress);
 }
 
-// n . (p - c) for floats n, c: products of 24 and some 30 bits, in 64.
+// A slab that computes n . (p - c) in 64 bits: for floats n and c products have 24 and some 30
+// bits.
 struct Slab {
   Direction normal;
   float lower, upper;
@@ -44,7 +45,7 @@ struct Slab {
   }
 };
 
-// Descends with the slabs of all ancestors, and strikes off the samples that a leaf holds.
+// Walks down with the slabs of all ancestors, and removes the samples that a leaf holds.
 template <int W>
 class Walker {
  public:
@@ -170,9 +171,9 @@ INSTANTIATE_TEST_SUITE_P(
                     placed(turned_boxes(15, 40), 1e-40, 0)),
     [](const testing::TestParamInfo<Soup>& info) { return "soup" + std::to_string(info.index); });
 
-// Spatial splits bound the parts of a triangle by boxes one after the other: a box may be left that
-// the triangle misses. A leaf of nothing else still needs a volume that a reader accepts.
-TEST(Leaf, OfReferencesThatMissTheirBoxes) {
+// Spatial splits bound a triangle's parts by one box after the other, so a box may be left that the
+// triangle misses. A leaf of nothing else still needs a volume that a reader accepts.
+TEST(Leaf, HasAVolumeWhereAllTrianglesMissTheirBoxes) {
   const Soup soup{"triangle", {0, 0, 0, 1, 0, 1, 0, 1, 1}, {0, 1, 2}};  // z = x + y
   const Mesh mesh(soup.view(), Scheduler(1, nullptr));
   const uint32_t primitive = 0;

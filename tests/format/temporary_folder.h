@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder of a test's own, gone with it.
+// A folder of a test's own, which is removed with the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ class TemporaryFolder {
     return {std::istreambuf_iterator<char>(file), {}};
   }
 
-  // How many files and folders are in it.
+  // Counts the files and folders in it.
   int count() const {
     return static_cast<int>(std::distance(std::filesystem::directory_iterator(folder_), {}));
   }

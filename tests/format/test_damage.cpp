@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files with any byte missing, added or changed: refused, or safe to walk.
+// A file with any byte missing, added or changed is refused, or safe to walk.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -21,8 +21,8 @@ std::vector<SmallFile> small_files() {
   return files;
 }
 
-// Runs body with every byte of the file changed in turn: each bit flipped, all flipped, and to the
-// values at the ends of the range.
+// Calls body with every byte of the file changed in turn: with each bit flipped, with all bits
+// flipped, and with the values at the ends of the range.
 template <class Body>
 void for_each_change(SmallFile& file, Body body) {
   for (size_t at = 0; at < file.bytes().size(); ++at) {
@@ -39,7 +39,7 @@ void for_each_change(SmallFile& file, Body body) {
   }
 }
 
-TEST(FormatDamage, TruncatedAnywhere) {
+TEST(FormatDamage, TruncationAnywhereIsRefused) {
   for (SmallFile& file : small_files()) {
     for (size_t size = 0; size < file.bytes().size(); ++size) {
       const Image part = test::copy_of(file.bytes().first(size));
@@ -50,7 +50,7 @@ TEST(FormatDamage, TruncatedAnywhere) {
   }
 }
 
-TEST(FormatDamage, TruncatedWithItsSizeCorrected) {
+TEST(FormatDamage, TruncationIsRefusedThoughTheSizeIsCorrected) {
   for (SmallFile& file : small_files()) {
     for (size_t size = sizeof(FileHeader); size < file.bytes().size(); ++size) {
       Image part = test::copy_of(file.bytes().first(size));
@@ -61,7 +61,7 @@ TEST(FormatDamage, TruncatedWithItsSizeCorrected) {
   }
 }
 
-TEST(FormatDamage, Extended) {
+TEST(FormatDamage, ExtensionIsRefused) {
   for (SmallFile& file : small_files()) {
     for (const size_t more : {size_t{1}, size_t{64}, size_t{100000}}) {
       Image longer = Image::allocate(std::make_shared<Memory>(), file.bytes().size() + more);
@@ -92,7 +92,7 @@ TEST(FormatDamage, ChangesWithChecksumsRecomputedAreSafe) {
   }
 }
 
-// Several words at once, of values that fields hold.
+// Changes several words at once, to values that fields hold.
 TEST(FormatDamage, RandomWordsAreSafe) {
   const auto seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -121,7 +121,7 @@ TEST(FormatDamage, RandomBytesAreRefused) {
   for (int round = 0; round < 2000; ++round) {
     std::vector<std::byte> noise(random() % 1000);
     for (std::byte& b : noise) b = static_cast<std::byte>(random());
-    // Half of them get past the first checks.
+    // Half of the files get past the first checks.
     if (round % 2 != 0 && noise.size() >= sizeof(FileHeader)) {
       auto& header = *reinterpret_cast<FileHeader*>(noise.data());
       std::ranges::copy(kMagic, header.magic);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damaged files that open all the same, with their checksums recomputed, are safe to trace.
+// Damaged files that open all the same, since their checksums are recomputed, are safe to trace.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace sobb {
 namespace {
 
-// Towards the triangles from all sides, and from within.
+// Rays toward the triangles from all sides, and from within.
 std::vector<sobb_ray> rays_about(const float (&centre)[3]) {
   std::vector<sobb_ray> rays;
   for (int i = 0; i < 256; ++i) {  // enough for a batch

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The deepest files that open, whose every node leaves all its other children behind, fill no
-// traversal's stack beyond its end.
+// The deepest files that open fill no traversal's stack beyond its end. Every node of theirs leaves
+// all but one of its children on the stack.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace sobb {
 namespace {
 
-// Rays of one octant through points of the comb's triangle, which thus meet all nodes.
+// Rays of one octant through points of the comb's triangle, so that they meet all nodes.
 std::vector<sobb_ray> rays_through(const TriangleBlock& block, uint32_t count, uint64_t seed) {
   test::Random random(seed);
   std::vector<sobb_ray> rays(count);

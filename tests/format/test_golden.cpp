@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of tests/golden, which every later library has to read, or to refuse, as this one.
+// Every later library has to read, or refuse, the files of tests/golden as this one does.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -33,7 +33,7 @@ Answer answer_of(const sobb_hit& hit) {
            std::bit_cast<uint32_t>(hit.v), hit.primitive}};
 }
 
-// Lines of eight words of a ray and four of its hit, in hexadecimal.
+// Reads lines of eight words of a ray and four of its hit, in hexadecimal.
 void read_hits(const std::filesystem::path& path, std::vector<sobb_ray>& rays,
                std::vector<Answer>& answers) {
   std::ifstream file(path);

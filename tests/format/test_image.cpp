@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes from files: read or mapped, and what cannot be.
+// Images read and map files, and refuse what is no file or too large.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -110,7 +110,7 @@ TEST(Image, ReadingKeepsTheMemoryLimit) {
   EXPECT_EQ(memory->held(), 0u);
 }
 
-// A sparse file of 4 TiB takes no room on the disk, and more than there is in memory.
+// A sparse file of 4 TiB takes no room on the disk, but is larger than the memory.
 TEST(Image, AHugeFileIsRefusedBeforeItIsRead) {
   const TemporaryFolder folder;
   const std::string path = folder.write("sparse", "");

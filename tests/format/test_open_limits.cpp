@@ -20,7 +20,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using test::TemporaryFolder;
 
-// A caller that stops at its n-th call, or once a time has passed.
+// A caller that cancels at its n-th call, or once a time has passed.
 struct Caller {
   uint64_t stop_at = UINT64_MAX;
   Clock::time_point deadline = Clock::time_point::max();
@@ -82,8 +82,8 @@ TEST(OpenLimits, MayBeCancelledAtEveryCall) {
   EXPECT_GE(calls, 6u);  // the bytes, each section, blocks, nodes, tree
 }
 
-// The header of a good file, then zeros without end, in a section that no reader knows or in none:
-// sparse on the disk, and minutes of checking.
+// The header of a good file is followed by zeros without end, in a section that no reader knows or
+// in none. The file is sparse on the disk, but to check it takes minutes.
 TEST(OpenLimits, AHugeFileIsGivenUpInTime) {
   constexpr uint64_t kHuge = uint64_t{1} << 39;
   const TemporaryFolder folder;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each cause of a refusal has its status, and a message that names the file, the place and it.
+// Each cause of a refusal has its status, and a message that names the file, the place and the
+// cause.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +36,7 @@ Node<4>& node(SmallFile& file, int index) { return file.node<4>(index); }
 
 class FormatRefusal : public testing::TestWithParam<Refusal> {};
 
-// The 4-wide SOBB file of small_file.h.
+// The file is the 4-wide SOBB file of small_file.h.
 TEST_P(FormatRefusal, HasStatusAndMessage) {
   const Refusal& refusal = GetParam();
   SmallFile file = test::make_small_file(SOBB_VOLUME_SOBB, 4);
@@ -311,8 +312,8 @@ TEST(FormatRefusalAabb, DirectionsAndBasesAreTheAxes) {
                "scene.sobb: node 2, child 1: basis 0x0801 of an AABB is not the axes");
 }
 
-// Deeper than the header may say: it lies, and the walk notices.
-TEST(FormatRefusalTree, TooDeep) {
+// The chain is deeper than a header may say, so its header lies; the walk over the tree notices.
+TEST(FormatRefusalTree, AChainTooDeepIsNoticed) {
   SmallFile chain = test::make_chain(kMaxDepth + 1);
   chain.fields.depth = kMaxDepth;
   chain.seal();
@@ -322,7 +323,8 @@ TEST(FormatRefusalTree, TooDeep) {
   EXPECT_STREQ(error->what(), "scene.sobb: node 95, child 0: more than 96 nodes deep");
 }
 
-// Of several faults the one with the lowest index is told, whatever thread comes to it first.
+// Of several faults the message names the one with the lowest index, whichever thread meets its own
+// first.
 TEST(FormatRefusalOrder, DoesNotDependOnThreads) {
   SmallFile chain = test::make_chain(20000);
   chain.fields.depth = 1;

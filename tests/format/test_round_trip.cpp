@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are as they should be.
+// Valid files open, and show what was written.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ TEST(FormatChecksum, DependsOnEveryMebibyteAndNotOnTheThreads) {
 }
 
 TEST(FormatSections, UnknownOnesArePassedOverButChecked) {
-  // The smallest file with a fifth section of 64 bytes; the table grows by 32, into the gap.
+  // The smallest file gets a fifth section of 64 bytes; the table grows by 32 bytes, into the gap.
   SmallFile file = test::make_smallest_file();
   const size_t old_size = file.bytes().size();
   const size_t offset = (old_size + 63) / 64 * 64;
@@ -114,12 +114,12 @@ TEST(FormatHeader, IgnorableFeaturesAreIgnored) {
   EXPECT_FALSE(test::error_of(file.bytes()));
 }
 
-TEST(FormatTree, TheDeepestThatIsAllowedOpens) {
+TEST(FormatTree, TheDeepestAllowedOpens) {
   EXPECT_FALSE(test::error_of(test::make_chain(kMaxDepth).bytes()));
 }
 
 // The hex dump in docs/format.md: lines of an offset and sixteen bytes.
-TEST(FormatDocument, ItsExampleIsTheSmallestFile) {
+TEST(FormatDocument, ShowsTheSmallestFile) {
   const auto tests = std::filesystem::path(SOBB_TEST_DATA).parent_path();
   std::ifstream document(tests.parent_path() / "docs/format.md");
   ASSERT_TRUE(document) << "docs/format.md is missing";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Saving: the old file or the new, never a part, and nothing left behind.
+// Saving leaves the old file or the new one, never a part of it, and nothing else behind.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
@@ -124,7 +124,7 @@ TEST(Save, ImpossiblePlacesAreNamed) {
   EXPECT_EQ(folder.count(), 2);
 }
 
-// In a child process, since root, who may write to any folder, must become somebody else.
+// Runs in a child process, which becomes another user: root may write to any folder.
 TEST(Save, AReadOnlyFolderIsNamed) {
   constexpr uid_t kNobody = 65534;
   const TemporaryFolder folder;
@@ -145,7 +145,7 @@ TEST(Save, AReadOnlyFolderIsNamed) {
   EXPECT_EQ(folder.count(), 1);
 }
 
-// In a child process, since the limit on the size of files holds for all that a process writes.
+// Runs in a child process, since a limit on the size of files holds for all that a process writes.
 TEST(Save, AFileSizeLimitLeavesTheOldFile) {
   const TemporaryFolder folder;
   folder.write("scene.sobb", "old");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A writer that is killed, at each of its system calls and at random moments: the old file or the
-// new, and nothing left that grows.
+// A writer that is killed, at any of its system calls or at a random moment, leaves the old file or
+// the new one, and abandoned files that do not pile up.
 #include <gtest/gtest.h>
 #include <sys/ptrace.h>
 #include <sys/wait.h>
@@ -38,7 +38,7 @@ const std::string& new_text() {
   return text;
 }
 
-// What a folder holds besides the file itself: one abandoned temporary at most.
+// Expects that a folder holds at most one abandoned temporary file besides the file itself.
 void expect_little_left(const TemporaryFolder& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder.path(""))) {
     const std::string name = entry.path().filename();
@@ -47,7 +47,7 @@ void expect_little_left(const TemporaryFolder& folder) {
 }
 
 // Runs body in a child that stops before and after each of its system calls, and kills it at stop
-// number `kill_at`. Returns whether it came so far; otherwise it has ended by itself.
+// number `kill_at`. Returns false if the child ended before that stop.
 template <class Body>
 bool kill_at_stop(int kill_at, const Body& body) {
   const pid_t child = fork();
@@ -160,7 +160,7 @@ TEST(SaveKilledAnywhere, WhatOthersLeftIsRemovedAndWhatTheyWriteIsNot) {
   folder.write(".sobb-0.tmp", "abandoned");
   save(folder.path("scene.sobb"), 10, 'a');
   EXPECT_EQ(folder.count(), 1);
-  // A save under way in another process, stopped in the middle of it.
+  // Another process is stopped in the middle of a save.
   const pid_t child = fork();
   if (child == 0) {
     ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);

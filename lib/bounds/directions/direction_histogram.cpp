@@ -8,22 +8,23 @@
 namespace sobb {
 namespace {
 
-// Of angles: 1 - cos is 0.0006 at 2 degrees, 0.0024 at 4.
+// Cosines of the angle that a peak's weight lies within, 2 degrees, and of the least angle between
+// two peaks, 4 degrees.
 constexpr double kPeakCosine = 0.9994;
 constexpr double kSpacingCosine = 0.9976;
-// A peak on a corner of cells is shared by several.
+// A peak on a corner of cells is spread over several of them, at most this many.
 constexpr double kCellsOfPeak = 8;
 
-// What is left of a cell while peaks are taken.
-struct Rest {
+// The weight of a cell that no peak has taken yet.
+struct Remainder {
   Vector direction;
   double weight;
 };
 
-// The mean direction of what lies around `start`, and its weight.
-Rest gather(std::span<const Rest> rests, const Vector& start) {
-  Rest sum{{0, 0, 0}, 0};
-  for (const Rest& rest : rests) {
+// Finds the mean direction of the weight around `start`, and that weight.
+Remainder gather(std::span<const Remainder> rests, const Vector& start) {
+  Remainder sum{{0, 0, 0}, 0};
+  for (const Remainder& rest : rests) {
     const double cosine = dot(rest.direction, start);
     if (std::fabs(cosine) < kPeakCosine) continue;
     const double weight = cosine < 0 ? -rest.weight : rest.weight;
@@ -60,7 +61,7 @@ void DirectionHistogram::add(const DirectionHistogram& other) {
 
 std::pmr::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit,
                                                           double least_share) const {
-  std::pmr::vector<Rest> rests(cells_.get_allocator());
+  std::pmr::vector<Remainder> rests(cells_.get_allocator());
   double total = 0;
   for (const Cell& cell : cells_) {
     const double norm = length(cell.sum);
@@ -73,17 +74,17 @@ std::pmr::vector<DirectionPeak> DirectionHistogram::peaks(uint32_t limit,
   };
   std::pmr::vector<DirectionPeak> peaks(cells_.get_allocator());
   for (;;) {
-    const auto heaviest =
-        std::max_element(rests.begin(), rests.end(),
-                         [](const Rest& a, const Rest& b) { return a.weight < b.weight; });
+    const auto heaviest = std::max_element(
+        rests.begin(), rests.end(),
+        [](const Remainder& a, const Remainder& b) { return a.weight < b.weight; });
     if (heaviest == rests.end() || heaviest->weight * kCellsOfPeak < least_share * total) break;
-    const Rest peak = gather(rests, gather(rests, heaviest->direction).direction);
+    const Remainder peak = gather(rests, gather(rests, heaviest->direction).direction);
     if (peak.weight >= least_share * total) {
       const DirectionPeak found = {peak.direction, peak.weight / total};
       peaks.insert(std::upper_bound(peaks.begin(), peaks.end(), found, heavier), found);
     }
-    heaviest->weight = 0;  // so that the loop ends, wherever the mean came to lie
-    for (Rest& rest : rests) {
+    heaviest->weight = 0;  // so that the loop ends, wherever the mean lies
+    for (Remainder& rest : rests) {
       if (std::fabs(dot(rest.direction, peak.direction)) > kSpacingCosine) rest.weight = 0;
     }
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How weight is spread over directions, and where it has its peaks. A direction and its opposite
-// are one: slabs do not tell them apart.
+// A histogram of directions by weight, and its peaks. A direction and its opposite are one: slabs
+// do not tell them apart.
 #pragma once
 
 #include <cstdint>
@@ -25,20 +25,21 @@ class DirectionHistogram {
   void add(const Vector& v);
   void add(const DirectionHistogram& other);
 
-  // The heaviest peaks, at most `limit`, heaviest first; of those nearer to each other than
-  // kPeakSpacing the heavier one. Every share is `least_share` or more. In the histogram's memory.
+  // Finds at most `limit` peaks, heaviest first, each with a share of at least `least_share`. Of
+  // peaks nearer to each other than the spacing (4 degrees) only the heavier one counts. The peaks
+  // are in the histogram's memory.
   std::pmr::vector<DirectionPeak> peaks(uint32_t limit, double least_share) const;
 
-  // The eigenvectors of the sum of w n n^T: where no single direction stands out, these still turn
+  // The eigenvectors of the sum of w n n^T. Where no single direction stands out, they still turn
   // with the scene.
   OrthogonalFrame principal_axes() const;
 
  private:
-  // A cell has about 1.4 degrees across. Half the octahedron's faces, unfolded to a square.
+  // Cells are squares on half the octahedron's faces, unfolded; each is about 1.4 degrees wide.
   static constexpr uint32_t kSide = 64;
   static constexpr uint32_t kCells = kSide * kSide;
 
-  // Lengths and vectors, summed; of the two opposites the upper one.
+  // The sums of lengths and of vectors, each vector turned upward.
   struct Cell {
     double weight = 0;
     Vector sum = {0, 0, 0};

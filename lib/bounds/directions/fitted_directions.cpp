@@ -9,11 +9,11 @@
 namespace sobb {
 namespace {
 
-// Sine of the angle by which two peaks may miss a right angle, and span a frame all the same.
+// The cosine up to which two peaks count as perpendicular.
 constexpr double kPerpendicular = 0.01;
-// Frames nearer to each other than this, component by component, are one.
+// Two frames are one if all components differ by less than this.
 constexpr double kSameFrame = 1e-3;
-// A frame nearer to the axes than this is theirs: it was found within rounding only.
+// A frame is the axes if all components differ by less than this, which only rounding explains.
 constexpr double kAxesDistance = 1e-5;
 
 Vector scaled(const Vector& v, double factor) {
@@ -37,7 +37,8 @@ double distance(const OrthogonalFrame& a, const OrthogonalFrame& b) {
   return most;
 }
 
-// Which vector stands for which axis, and with which sign: such that the cosines sum up highest.
+// Orders and signs two vectors and their cross product so that the cosines with the axes have the
+// greatest sum.
 OrthogonalFrame nearest_to_axes(const Vector& first, const Vector& second) {
   const Vector vectors[3] = {first, second, cross(first, second)};
   size_t order[3] = {0, 1, 2};

@@ -7,7 +7,7 @@
 namespace sobb {
 namespace {
 
-// Turns p and q such that m_pq vanishes: t = tan of the angle is the smaller root of
+// Turns p and q so that m_pq vanishes. The tangent t of the angle is the smaller root of
 // t^2 + 2 theta t - 1 = 0, theta = (m_qq - m_pp) / (2 m_pq) (G. Golub, C. Van Loan, "Matrix
 // Computations", 8.5).
 void rotate(Vector (&m)[3], OrthogonalFrame& frame, size_t p, size_t q) {
@@ -37,7 +37,7 @@ OrthogonalFrame principal_axes(const Vector (&matrix)[3]) {
   Vector m[3];
   std::copy(matrix, matrix + 3, m);
   OrthogonalFrame frame = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  constexpr int kSweeps = 12;  // converges quadratically: half of them would do
+  constexpr int kSweeps = 12;  // it converges quadratically: half of them would do
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     rotate(m, frame, 0, 1);
     rotate(m, frame, 0, 2);

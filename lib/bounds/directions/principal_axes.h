@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three perpendicular unit vectors, and those along which a scene's directions lie most and least.
+// Orthogonal frames, and those of symmetric matrices.
 #pragma once
 
 #include "bounds/area.h"
 
 namespace sobb {
 
+// Three perpendicular unit vectors.
 struct OrthogonalFrame {
   Vector axis[3];
 };

@@ -1,4 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+// Reinsertion takes a node out of the tree and puts it back where the areas of inner nodes become
+// smallest. Here node N goes from beside S to beside T:
+//
+//   root              root           keeps its box
+//   +- A              +- A           shrinks
+//   |  +- P           |  +- S        takes the place of its parent P
+//   |  |  +- S        |  +- C
+//   |  |  +- N   =>   +- B           grows
+//   |  +- C              +- P        is made anew in the place of T
+//   +- B                 |  +- T
+//      +- T              |  +- N
+//      +- D              +- D
+//
+// The pair that held S and N takes T and N. The search for T climbs from N to the root. Beside each
+// node on its way, the pivot, hangs a subtree (that of C, then of B). The search looks at it from
+// the top down, as long as a place there may gain more than the best so far.
 #include "builder/topology/reinsertion.h"
 
 #include <algorithm>
@@ -10,24 +26,24 @@
 namespace sobb {
 namespace {
 
-// Where a node is: twice its pair, and which child; or the root.
+// Where a node lies: twice its pair, plus 1 for the right child; or kRoot.
 using Place = uint32_t;
 constexpr Place kRoot = 0xFFFFFFFF;
 constexpr Place kNowhere = 0xFFFFFFFE;
 
-// A node becomes the sibling of another, under a new parent.
-struct Move {
+// The node at `from` becomes the sibling of the node at `to`, under a new parent.
+struct Reinsertion {
   Place from;
   Place to;
   double gain;  // half the area that inner nodes lose
 };
 
-// For the best one of a node.
-struct Search {
-  const Box& box;  // the node's
-  double own;      // half its area: the least that a new parent has
-  Move best;
-  uint32_t pairs_left;  // to be looked at
+// The search for the best reinsertion of one node.
+struct PlaceSearch {
+  const Box& box;    // the node's
+  double half_area;  // of that box; a new parent has at least as much
+  Reinsertion best;
+  uint32_t pairs_left;  // that the search may still look at
 };
 
 double half_area_of_both(const Box& a, const Box& b) {
@@ -57,32 +73,33 @@ class Reinserter {
 
   void round(double share, ProgressStage& stage) {
     const std::pmr::vector<Place> places = largest(share);
-    std::pmr::vector<Move> moves(places.size(), &memory_);
+    std::pmr::vector<Reinsertion> moves(places.size(), &memory_);
     scheduler_.for_ranges(places.size(), kGrain, [&](uint64_t begin, uint64_t end) {
       stage.advance(0);
-      for (uint64_t i = begin; i < end; ++i) moves[i] = best_move(places[i]);
+      for (uint64_t i = begin; i < end; ++i) moves[i] = best_reinsertion(places[i]);
     });
-    std::erase_if(moves, [](const Move& move) { return move.to == kNowhere; });
-    std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) {
+    std::erase_if(moves, [](const Reinsertion& move) { return move.to == kNowhere; });
+    std::sort(moves.begin(), moves.end(), [](const Reinsertion& a, const Reinsertion& b) {
       return a.gain > b.gain || (a.gain == b.gain && a.from < b.from);
     });
     std::pmr::vector<bool> touched(2 * pairs_.size(), false, &memory_);
-    for (const Move& move : moves) make(move, touched);
+    for (const Reinsertion& move : moves) apply(move, touched);
   }
 
-  // Lays the nodes out again; not if they have become too deep for a file.
+  // Lays the nodes out again, depth first. If the tree has become too deep for a file, leaves it as
+  // it was before the first round.
   void finish() const {
     if (depth() <= kMaxDepth) lay_out();
   }
 
  private:
   static constexpr uint64_t kGrain = 1024;
-  // Smaller moves, by the root's area, are not worth a look.
+  // A gain below this share of the root's area is not worth a reinsertion.
   static constexpr double kLeastGain = 1e-7;
-  // A node looks at so many at most, so that no scene takes time without bound. (Of the scenes
-  // tried the trees are the same without.)
+  // A search looks at this many pairs at most, so that no scene takes time without bound. (Without
+  // the limit the trees of the scenes tried are the same.)
   static constexpr uint32_t kMostPairs = 1 << 14;
-  // About as many nodes at most tell how large the largest are.
+  // A sample of about this many nodes tells how large the largest are.
   static constexpr size_t kSample = 1 << 14;
 
   const TopologyNode& at(Place place) const {
@@ -97,7 +114,8 @@ class Reinserter {
     if (!at(place).is_leaf) parent_[at(place).first] = place;
   }
 
-  // But for the root's children, which have no better place.
+  // The places of the nodes with the largest boxes, `share` of all nodes. The root's children are
+  // left out: they have no better place.
   std::pmr::vector<Place> largest(double share) const {
     const size_t count = 2 * pairs_.size();
     std::pmr::vector<double> sample(&memory_);
@@ -115,20 +133,21 @@ class Reinserter {
   }
   double half_area(size_t place) const { return at(static_cast<Place>(place)).box.half_area(); }
 
-  // Where a node gains most. Without it its parent goes, and its ancestors shrink up to the one
-  // that it comes to lie under again; there, those between grow, and it has a new parent.
-  Move best_move(Place from) const {
-    Search search = {
+  // Finds where a node gains most. `rest` is the pivot's box without the node. `gain` is the half
+  // area that is saved on the way up to the pivot: the parent's own, and what other ancestors lose.
+  Reinsertion best_reinsertion(Place from) const {
+    PlaceSearch search = {
         at(from).box, at(from).box.half_area(), {from, kNowhere, least_gain_}, kMostPairs};
     Place pivot = parent(from);
-    Box rest = at(sibling(from)).box;  // what the pivot keeps
+    Box rest = at(sibling(from)).box;
     double gain = at(pivot).box.half_area();
-    // Its sibling, with the node below it again, would be as large as the parent is.
-    if (!at(sibling(from)).is_leaf) look_below(at(sibling(from)), rest.half_area(), search);
+    // In a place below the old sibling the node makes the sibling as large as the parent is now. Of
+    // the parent's area only the sibling's is saved.
+    if (!at(sibling(from)).is_leaf) search_below(at(sibling(from)), rest.half_area(), search);
     while (pivot != kRoot) {
       const Place beside = sibling(pivot);
-      const double below = offer(beside, gain, search);
-      if (!at(beside).is_leaf) look_below(at(beside), below, search);
+      const double gain_below = try_place(beside, gain, search);
+      if (!at(beside).is_leaf) search_below(at(beside), gain_below, search);
       rest.grow(at(beside).box);
       pivot = parent(pivot);
       gain += at(pivot).box.half_area() - rest.half_area();
@@ -136,45 +155,47 @@ class Reinserter {
     return search.best;
   }
 
-  // As the sibling of a node. `gain` is what is gained above the new parent; returns it for one
-  // below the node, which then grows.
-  double offer(Place place, double gain, Search& search) const {
+  // Tries the place beside a node, where everything but the new parent gains `gain`. Returns the
+  // same for the places below the node, which makes the node grow.
+  double try_place(Place place, double gain, PlaceSearch& search) const {
     const Box& box = at(place).box;
     const double both = half_area_of_both(box, search.box);
     if (gain - both > search.best.gain) search.best = {search.best.from, place, gain - both};
     return gain - (both - box.half_area());
   }
 
-  // As the sibling of one below a node, wherever the new parent may be small enough.
-  void look_below(const TopologyNode& node, double gain, Search& search) const {
-    struct Open {
+  // Tries the places below a node, but for those where the smallest possible parent gains too
+  // little.
+  void search_below(const TopologyNode& node, double gain, PlaceSearch& search) const {
+    struct PendingPair {
       uint32_t pair;
       double gain;
     };
-    Open stack[2 * kMaxDepth];
+    PendingPair stack[2 * kMaxDepth];
     uint32_t top = 0;
     stack[top++] = {node.first, gain};
     while (top != 0 && search.pairs_left != 0) {
-      const Open open = stack[--top];
-      if (open.gain - search.own <= search.best.gain) continue;
+      const PendingPair pending = stack[--top];
+      if (pending.gain - search.half_area <= search.best.gain) continue;
       --search.pairs_left;
       for (uint32_t side = 0; side < 2; ++side) {
-        const Place place = 2 * open.pair + side;
-        const double below = offer(place, open.gain, search);
-        if (!at(place).is_leaf && top < 2 * kMaxDepth) stack[top++] = {at(place).first, below};
+        const Place place = 2 * pending.pair + side;
+        const double gain_below = try_place(place, pending.gain, search);
+        if (!at(place).is_leaf && top < 2 * kMaxDepth) stack[top++] = {at(place).first, gain_below};
       }
     }
   }
 
-  // Makes a move if none before it in the round touched what it does: the node's pair, which its
-  // new parent takes over; its old parent, where its sibling goes; and its new sibling.
-  void make(const Move& move, std::pmr::vector<bool>& touched) {
+  // Carries a reinsertion out, unless one before it in the round touched a place that this one
+  // changes: those of the node's pair, which the new parent takes over, of the old parent, where
+  // the sibling goes, and of the new sibling.
+  void apply(const Reinsertion& move, std::pmr::vector<bool>& touched) {
     const Place up = parent(move.from);
     const Place places[] = {move.from, sibling(move.from), up, move.to};
     if (up == kRoot) return;
     if (std::any_of(places, places + 4, [&](Place place) { return touched[place]; })) return;
     for (Place place = move.to; place != kRoot; place = parent(place)) {
-      if (place == move.from) return;  // which came to lie above it
+      if (place == move.from) return;  // an earlier one put the new sibling below the node
     }
     for (const Place place : places) touched[place] = true;
 
@@ -193,7 +214,7 @@ class Reinserter {
     refit(move.to);
   }
 
-  // From a node up.
+  // Recomputes boxes from a node upward, as far as they change.
   void refit(Place place) {
     for (;; place = parent(place)) {
       TopologyNode& node = at(place);
@@ -205,23 +226,24 @@ class Reinserter {
     }
   }
 
-  // Calls visit(pair, its parent's place, the pair's depth) for all pairs, depth first.
+  // Calls visit(pair, its parent's place, its depth) for all pairs, depth first. visit() returns
+  // the pair's number in the order that it makes; places of parents count by it.
   template <class Visit>
   void for_each_pair(const Visit& visit) const {
-    struct Open {
+    struct PendingPair {
       uint32_t pair;
-      uint32_t up;  // the parent's place once visited
+      Place up;
       uint32_t depth;
     };
-    std::pmr::vector<Open> stack(&memory_);
+    std::pmr::vector<PendingPair> stack(&memory_);
     stack.push_back({root_.first, kRoot, 1});
     while (!stack.empty()) {
-      const Open open = stack.back();
+      const PendingPair pending = stack.back();
       stack.pop_back();
-      const uint32_t visited = visit(open.pair, open.up, open.depth);
+      const uint32_t visited = visit(pending.pair, pending.up, pending.depth);
       for (uint32_t side = 2; side-- > 0;) {
-        const TopologyNode& child = pairs_[open.pair].child[side];
-        if (!child.is_leaf) stack.push_back({child.first, 2 * visited + side, open.depth + 1});
+        const TopologyNode& child = pairs_[pending.pair].child[side];
+        if (!child.is_leaf) stack.push_back({child.first, 2 * visited + side, pending.depth + 1});
       }
     }
   }
@@ -253,12 +275,12 @@ class Reinserter {
     nodes_.root.count = to[0].count();
   }
 
-  BinaryNodes& nodes_;  // as they were, until the end
+  BinaryNodes& nodes_;  // unchanged until finish()
   const Scheduler& scheduler_;
   Memory& memory_;
   TopologyNode root_;
   Array<NodePair> pairs_;
-  std::pmr::vector<Place> parent_;  // by pair
+  std::pmr::vector<Place> parent_;  // of each pair
   double least_gain_;
 };
 

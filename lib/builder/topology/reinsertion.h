@@ -10,14 +10,14 @@
 
 namespace sobb {
 
-// In each round the nodes of the largest boxes, this share of all, look for a better place.
+// In each round this share of the nodes, those with the largest boxes, look for a better place.
 struct ReinsertionEffort {
   uint32_t rounds;
   double share;
 };
 
-// Lowers the sum of inner nodes' areas; leaves stay as they are. Pairs lie depth first before and
-// after. The same for any number of threads. Reports to `stage`, of as many items as rounds.
+// Lowers the sum of the inner nodes' areas; leaves stay as they are. Pairs lie depth first before
+// and after. The result is the same for any number of threads. `stage` has one item per round.
 void reinsert(BinaryNodes& nodes, const ReinsertionEffort& effort, const Scheduler& scheduler,
               Memory& memory, ProgressStage& stage);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint64_t kNodesAtOnce = 1024;
 
-// One child of one node: a lane of it, with what messages need.
+// One child of a node, that is a lane of it, with what messages name.
 template <int W>
 class Child {
  public:
@@ -35,7 +35,7 @@ class Child {
     }
   }
 
-  // All bits, those of the slabs too.
+  // Proves that all bits of an unused lane are zero.
   void validate_unused() const {
     uint32_t bits = node_.reference[lane_] | node_.basis[lane_] | node_.meta[lane_];
     for (const auto& slab : node_.slab) {
@@ -94,7 +94,8 @@ class Child {
     }
   }
 
-  // Forward only: so that there is no cycle, and one pass sees parents before their children.
+  // References lead forward only, so that there is no cycle, and one pass meets parents before
+  // their children.
   void validate_reference() const {
     const uint64_t target = node_.reference[lane_];
     if (target >= view_.node_count) {

@@ -11,9 +11,9 @@
 namespace sobb {
 namespace {
 
-constexpr uint64_t kMaxIndexed = uint64_t{1} << 32;  // what a node's reference can tell apart
+constexpr uint64_t kMaxIndexed = uint64_t{1} << 32;  // as many as a node's reference can tell apart
 
-// Sections lie behind the table, aligned and in the file.
+// Proves that sections are aligned and lie in the file.
 void validate_ranges(const Reading& reading, std::span<const Section> sections) {
   for (size_t i = 0; i < sections.size(); ++i) {
     const Section& section = sections[i];
@@ -31,8 +31,8 @@ void validate_ranges(const Reading& reading, std::span<const Section> sections) 
   }
 }
 
-// Sections are disjoint, and what lies between them is zero: with the checksums, no byte of the
-// file can change unnoticed.
+// Proves that sections are disjoint, lie behind the table, and have zeros between them. With the
+// checksums no byte of the file can then change unnoticed.
 void validate_gaps(const Reading& reading, std::span<const Section> sections,
                    ProgressStage& stage) {
   std::array<Section, kMaxSections> storage;
@@ -77,7 +77,7 @@ const Section& find_section(const Reading& reading, std::span<const Section> sec
   return *std::ranges::find_if(sections, is_it);
 }
 
-// The section's size is that of [least, most] items.
+// Proves that there is one section of an id, and that it holds [least, most] items.
 void validate_items(const Reading& reading, std::span<const Section> sections, SectionId id,
                     const char* what, uint64_t item_size, uint64_t least, uint64_t most) {
   const Section& section = find_section(reading, sections, id, what);

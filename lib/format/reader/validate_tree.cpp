@@ -90,7 +90,7 @@ class TreeWalk {
 
   const Reading& reading_;
   const FileView& view_;
-  std::pmr::vector<uint8_t> depth_;  // 0 where no parent was met
+  std::pmr::vector<uint8_t> depth_;  // 0: no parent was met yet
   std::pmr::vector<bool> block_used_;
   uint32_t deepest_ = 0;
   uint64_t references_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Replacing a file whole or not at all.
+// Replaces a file whole or not at all.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -22,7 +22,7 @@ namespace {
   fail(SOBB_ERROR_FILE_WRITE, "%s: %s: %s", path, doing, std::strerror(errno));
 }
 
-// Where `path` leads: a link that leads somewhere is kept, and what it leads to replaced.
+// Finds where `path` leads: a link that leads somewhere stays, and its target is replaced.
 std::string resolve(const char* path) {
   const std::unique_ptr<char, decltype(&std::free)> resolved(realpath(path, nullptr), std::free);
   return resolved ? resolved.get() : path;
@@ -53,8 +53,8 @@ void save_atomically(std::span<const std::byte> bytes, const char* path) {
   if (!temporary.created()) fail_write(path, "cannot create a file in its folder");
   if (!temporary.write(bytes)) fail_write(path, "cannot write");
   if (!temporary.rename(name)) fail_write(path, "cannot be replaced");
-  // The new file is whole and in place whatever this says: all that could fail is that a power cut
-  // now brings the old one back.
+  // The new file is whole and in place whatever fsync() returns. If it fails, a power cut now may
+  // bring the old file back.
   fsync(folder.get());
 }
 

@@ -14,7 +14,7 @@
 namespace sobb {
 namespace {
 
-// Linux transfers at most about 2 GiB a call.
+// Linux transfers at most about 2 GiB per call.
 constexpr uint64_t kWriteAtOnce = uint64_t{1} << 30;
 
 }  // namespace
@@ -25,8 +25,9 @@ TemporaryFile::~TemporaryFile() {
   if (file_.valid()) unlinkat(folder_, name_, 0);
 }
 
-// Whether the lock is ours, and the file still has its name: another may have taken it for an
-// abandoned one before it was locked. A file system without locks has no abandoned ones.
+// Locks the file, and returns whether it still has its name: before the lock another process may
+// have taken the file for an abandoned one. On a file system without locks no file counts as
+// abandoned.
 bool TemporaryFile::own(int file) const {
   if (flock(file, LOCK_EX | LOCK_NB) != 0) return errno != EWOULDBLOCK;
   struct stat opened;
@@ -35,7 +36,7 @@ bool TemporaryFile::own(int file) const {
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
-// What has the name is removed where nobody holds its lock.
+// Removes the file of that name if no process holds its lock.
 void TemporaryFile::remove_abandoned() const {
   const FileDescriptor file(openat(folder_, name_, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.valid() && flock(file.get(), LOCK_EX | LOCK_NB) == 0 && own(file.get())) {

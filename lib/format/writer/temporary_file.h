@@ -11,9 +11,9 @@
 
 namespace sobb {
 
-// Named `.sobb-N.tmp` in a folder, N from 0 on; removed again unless it was renamed. A process that
-// is killed leaves its file, but not the lock on it: the next to use that name removes it. So what
-// is left never grows beyond as many files as were written in the folder at once.
+// The file is named `.sobb-N.tmp`, N from 0 on, and removed again unless it was renamed. A killed
+// process leaves its file, but not the lock on it: the next process to use that name removes the
+// file. So a folder never keeps more such files than were once written in it at the same time.
 class TemporaryFile {
  public:
   // `folder` is an open directory's descriptor; `mode` is taken before the umask.
@@ -22,7 +22,7 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
 
-  // Where these return false, errno says why.
+  // Each returns false with errno set where it fails.
   bool created() const { return file_.valid(); }
   bool write(std::span<const std::byte> bytes);  // and brings them to the disk
   bool rename(const char* name);                 // within the folder, over what is there

@@ -10,7 +10,7 @@
 namespace sobb {
 namespace {
 
-// Small sections first, so that what a tool shows of a file is in its first page.
+// Small sections come first, so that all that a tool shows of a file is in its first page.
 constexpr SectionId kOrder[] = {SectionId::kDirections, SectionId::kRecord, SectionId::kNodes,
                                 SectionId::kBlocks};
 constexpr uint32_t kSectionCount = std::size(kOrder);
