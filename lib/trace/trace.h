@@ -48,8 +48,8 @@ struct TraceKernels {
   using Array = uint64_t (*)(const Tracer& tracer, const sobb_ray* rays, uint64_t count,
                              Result* results, void* scratch);
 
-  // By TraceMode, for up to kBatchRays rays, with `scratch_bytes` of memory, aligned to 64, of
-  // which kPacketMode needs none.
+  // Array kernels by TraceMode, for up to kBatchRays rays, with `scratch_bytes` of memory, aligned
+  // to 64, of which kPacketMode needs none.
   size_t scratch_bytes;
   Array<sobb_hit> intersect_array[kTraceModes];
   Array<uint8_t> occluded_array[kTraceModes];

@@ -162,7 +162,7 @@ class Packets : public testing::TestWithParam<uint32_t> {
     }
   }
 
-  // The same of rays to every light.
+  // Rays to every light keep that promise, too.
   void check_shadows(const Soup& soup, uint64_t seed,
                      const std::function<void(std::vector<sobb_ray>&, Random&)>& change) {
     SCOPED_TRACE("seed " + std::to_string(seed));

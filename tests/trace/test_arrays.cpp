@@ -26,7 +26,7 @@ namespace sobb::test {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-// About the fewest rays that are traced together, and the most of a task.
+// These counts lie about the fewest rays that are traced together, and the most of a task.
 constexpr size_t kLengths[] = {1, 255, 256, 257, 2047, 2048, 2049, 5000};
 
 struct Case {
@@ -77,7 +77,7 @@ void expect_hits_by(const Intersect& intersect, const Occluded& occluded, size_t
   ASSERT_EQ(any[count], 77) << "written past the end";
 }
 
-// By each mode alone.
+// Expects the hits of each mode alone.
 void expect_hits_of_modes(sobb_isa isa, const HierarchyHandle& hierarchy,
                           const std::vector<sobb_ray>& rays, size_t count,
                           const std::vector<sobb_hit>& expected) {
@@ -101,7 +101,7 @@ void expect_hits_of_modes(sobb_isa isa, const HierarchyHandle& hierarchy,
   }
 }
 
-// As array calls have it.
+// Expects what array calls promise.
 void expect_hits_of_calls(sobb_isa isa, const HierarchyHandle& hierarchy,
                           const std::vector<sobb_ray>& rays, size_t count,
                           const std::vector<sobb_hit>& expected, sobb_trace_options options) {
@@ -121,7 +121,8 @@ void expect_hits_of_calls(sobb_isa isa, const HierarchyHandle& hierarchy,
   }
 }
 
-// The same by every instruction set. With threads or a host that is short of memory, by calls only.
+// Expects the same from every instruction set. With threads or a host that is short of memory only
+// calls are tried.
 void expect_hits(const HierarchyHandle& hierarchy, const std::vector<sobb_ray>& rays, size_t count,
                  const std::vector<sobb_hit>& expected, const std::string& what,
                  const sobb_trace_options* options = nullptr) {

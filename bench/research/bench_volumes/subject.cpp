@@ -9,7 +9,7 @@
 namespace sobb::bench::volumes {
 namespace {
 
-// With more planes k3 has too many triples for whole hierarchies, so only k2 is compared.
+// Strategy k3 has too many triples for whole hierarchies of more planes: only k2 is compared there.
 constexpr uint32_t kMostPlanesOfAnyStrategy = 64;
 
 // "SOBB 64i" becomes sobb64i.

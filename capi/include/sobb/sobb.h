@@ -228,7 +228,7 @@ typedef enum sobb_strategy {
   SOBB_STRATEGY_K3 = 3  /**< all triples */
 } sobb_strategy;
 
-/** Where the directions of SOBBs come from. */
+/** The table of directions that SOBBs take theirs from. */
 typedef enum sobb_table {
   SOBB_TABLE_DEFAULT = 0, /**< fitted; of AABBs, whose directions are the axes, spread */
   SOBB_TABLE_SPREAD = 1,  /**< the library's own set: the axes, and directions spread evenly */
@@ -306,7 +306,8 @@ typedef struct sobb_open_options {
   uint64_t memory_limit; /**< bytes that opening may hold at once; 0 for none */
   const sobb_allocator* allocator;
   const sobb_scheduler* scheduler;
-  /** As in sobb_build_options; called once a MiB or so, so that it can keep a limit of time. */
+  /** Progress as in sobb_build_options, called about once per MiB, so that it can keep a time
+   * limit. */
   int (*progress)(void* user, double fraction);
   void* progress_user;
 } sobb_open_options;
@@ -366,7 +367,7 @@ typedef struct sobb_info {
   float bounds_max[3];
   double inner_area; /**< sum of the inner children's areas over the box's area */
   double leaf_area;  /**< sum of the leaves' areas over the box's area */
-  /* Of the build, in milliseconds and bytes; zero for a hierarchy that was opened. */
+  /* The build took these milliseconds and bytes; zero for a hierarchy that was opened. */
   double topology_ms; /**< a fitted table and the binary hierarchy */
   double collapse_ms; /**< binary to wide */
   double volume_ms;   /**< k-DOPs, volumes, nodes and triangle blocks */
@@ -464,7 +465,7 @@ SOBB_API sobb_status sobb_occluded(const sobb_hierarchy* hierarchy, const sobb_r
 SOBB_API sobb_status sobb_intersect1(const sobb_hierarchy* hierarchy, const sobb_ray* ray,
                                      sobb_hit* hit);
 
-/** Whether one ray is occluded (a byte as above). */
+/** Tells whether one ray is occluded (a byte as above). */
 SOBB_API sobb_status sobb_occluded1(const sobb_hierarchy* hierarchy, const sobb_ray* ray,
                                     uint8_t* occluded);
 

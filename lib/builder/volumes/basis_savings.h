@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a hierarchy gains by directions other than the frame's, told by a sample of its nodes.
+// BasisSavings tells by a sample of its nodes whether a hierarchy gains by directions other than
+// the frame's.
 #pragma once
 
 #include "base/memory.h"

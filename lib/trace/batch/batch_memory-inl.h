@@ -61,7 +61,7 @@ struct Batch {
 
   SlabRay ray[kBatchRays];
   OctantTraversal traversal[kOctants];
-  // By octant before the traversals begin, then by child, while a node is visited.
+  // Lists of rays: by octant before the traversals begin, by child while a node is visited.
   RayEntry list[std::max(kOctants, kMostChildren)][kBatchRays + kSlack];
   RayEntry arena[kArena * kBatchRays + kOctants * kSlack];
   CandidateList<uint32_t> candidates;

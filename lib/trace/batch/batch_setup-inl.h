@@ -21,7 +21,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where RaySetup puts the rays of a batch.
+// RaySetup puts the rays of a batch into these places.
 template <Query kQuery>
 struct BatchPlaces {
   // In any-hit queries few rays meet the deciding test.

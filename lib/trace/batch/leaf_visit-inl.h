@@ -58,8 +58,8 @@ class LeafVisit {
  private:
   // Lists of fewer rays go to the deciding test without the filter.
   static constexpr uint32_t kFewestFiltered = 4;
-  // Whether the filter's sure hits need no other test. Where a condition of acceptance is left, it
-  // must be asked.
+  // The filter's sure hits need no other test, unless a condition of acceptance is left to be
+  // asked.
   static constexpr bool kTakesSureHits = kQuery == Query::kAny && QueryConditions::kNone;
 
   // The filter costs more than it saves where rays hit most of the leaves that they meet, unless

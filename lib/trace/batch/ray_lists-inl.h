@@ -25,7 +25,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// As many rays of a list as a vector has lanes.
+// ListPart is the next bundle of a list: as many rays as a vector has lanes.
 class ListPart {
   RayEntry padded_[kRayLanes];
 

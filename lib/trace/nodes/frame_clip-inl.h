@@ -21,7 +21,7 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Where the planes of the j-th slab are, in bytes from a node's first plane.
+// FramePlanes tells where the planes of the j-th slab are, in bytes from a node's first plane.
 template <int W>
 struct FramePlanes {
   static constexpr size_t kPlane = sizeof(float) * W;  // from a lower plane to its upper one
@@ -39,8 +39,8 @@ struct FramePlanes {
 // There are two forms of the same maximum and minimum. `near_at(j)` and `far_at(j)` are the
 // distances of the j-th slab's planes.
 
-// As a chain: kernels whose rays take turns wait for nothing else meanwhile. (Waves with the tree:
-// city 0.95, motorbike 0.99, crown 1.02, chopper 0.97 of the speed.)
+// The chain is for kernels whose rays take turns, which nothing keeps waiting. (Waves with the
+// tree: city 0.95, motorbike 0.99, crown 1.02, chopper 0.97 of the speed.)
 template <class V, class NearAt, class FarAt>
 HWY_INLINE void clip_frame_chain(const NearAt& near_at, const FarAt& far_at, V& near, V& far) {
   for (int j = 0; j < 3; ++j) {
@@ -49,7 +49,7 @@ HWY_INLINE void clip_frame_chain(const NearAt& near_at, const FarAt& far_at, V& 
   }
 }
 
-// As a tree: the kernel for one ray waits for it at every node.
+// The tree is for the kernel of one ray, which waits for it at every node.
 template <class V, class NearAt, class FarAt>
 HWY_INLINE void clip_frame_tree(const NearAt& near_at, const FarAt& far_at, V& near, V& far) {
   near = hn::Max(hn::Max(near_at(0), near_at(1)), hn::Max(near_at(2), near));

@@ -64,7 +64,7 @@ concept HasFrameNodes = requires(const typename Volumes::Node& node) {
   Volumes::on_frame(node);
 };
 
-// Whether a ray's side is enough for a node.
+// Returns whether a ray's side is enough for a node.
 template <class Volumes, class Ray>
 HWY_INLINE bool covers(const typename Volumes::Node& node) {
   if constexpr (HasFrameNodes<Volumes> && std::is_same_v<Ray, FrameRay<Volumes::kWidth>>) {

@@ -24,13 +24,13 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// As many children at once as a vector of the target has lanes.
+// The children of a node over the lanes: as many at once as a vector of the target has.
 template <int W>
 using ChildFloats = hn::CappedTag<float, W>;
 template <int W>
 using ChildWords = hn::RebindToUnsigned<ChildFloats<W>>;
 
-// Where planes are: p r + k.
+// Returns where planes are along the ray: p r + k.
 template <class V>
 HWY_INLINE V plane_distance(V plane, V scale, V offset) {
   return hn::MulAdd(plane, scale, offset);
@@ -53,7 +53,7 @@ HWY_INLINE void clip_planes(const SlabCoefficients<V>& c, V lower, V upper, V& n
              hn::IfNegativeThenElse(c.reciprocal, lower, upper), near, far);
 }
 
-// One slab of as many children as a vector has lanes, from child `first` on.
+// Clips with one slab of as many children as a vector has lanes, from child `first` on.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_slab(const SlabCoefficients<V>& c, const float (&slab)[2][W], size_t first,
                           V& near, V& far) {
@@ -61,7 +61,7 @@ HWY_INLINE void clip_slab(const SlabCoefficients<V>& c, const float (&slab)[2][W
   clip_planes(c, hn::Load(d, slab[0] + first), hn::Load(d, slab[1] + first), near, far);
 }
 
-// The same, with one direction for all children.
+// Clips likewise, with one direction for all children.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_shared(const RayTable& table, const float (&slab)[2][W], uint32_t direction,
                             size_t first, V& near, V& far) {
@@ -93,7 +93,7 @@ HWY_INLINE SlabCoefficients<V> look_up(const RayTable& table, const uint16_t* ba
   }
 }
 
-// The same, with a direction of its own for each child. `basis` starts at child `first`.
+// Clips likewise, with a direction of each child's own. `basis` starts at child `first`.
 template <int W, class V = hn::Vec<ChildFloats<W>>>
 HWY_INLINE void clip_own(const RayTable& table, const float (&slab)[2][W], const uint16_t* basis,
                          int j, size_t first, V& near, V& far) {

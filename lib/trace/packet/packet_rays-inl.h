@@ -44,7 +44,7 @@ inline constexpr int kWholePacket = kBeams;
 // Beams over the lanes.
 using BeamFloats = hn::CappedTag<float, kBeams>;
 
-// Where the rays of a packet meet.
+// PacketFocus is where the rays of a packet meet.
 struct PacketFocus {
   float at[3];
   bool backward;  // they end there
@@ -65,7 +65,7 @@ struct PacketRays {
   float centre[2];      // slopes in the middle of the packet
   float spread[2];      // no slope is further from there
 
-  // By ray.
+  // One element per ray.
   alignas(64) double origin[3][kOwnOrigins ? kSize : 1];  // permuted
   alignas(64) double shear[2][kSize];                     // as TriangleRay has them
   alignas(64) double direction_z[kSize];
@@ -79,7 +79,7 @@ struct PacketRays {
   alignas(64) float v[kSize];
   alignas(64) uint32_t primitive[kSize];
 
-  // By beam, and then of the whole packet.
+  // One element per beam, then one for the whole packet.
   alignas(64) float beam_near[kBeams + 1];
   alignas(64) float beam_far[kBeams + 1];
   // Slopes by place in the beam, in any order, then beam.

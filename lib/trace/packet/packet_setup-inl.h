@@ -117,7 +117,7 @@ class PacketSetup {
     return hn::RebindMask(d, hn::Eq(hn::BitCast(dw, origin), expected));
   }
 
-  // Whether the largest axis, as TriangleRay chooses it, is the packet's, with its sign.
+  // Tells whether the largest axis, as TriangleRay chooses it, is the packet's, with its sign.
   HWY_INLINE M goes_along(const V (&size)[3], size_t i) const {
     const RayFloats d;
     const int axis = packet_.projection.axis[2];
@@ -127,7 +127,7 @@ class PacketSetup {
     return hn::And(forward, LargestAxis(size).is(axis));
   }
 
-  // Whether rays pierce the focus' plane near the focus and end there at the latest.
+  // Tells whether rays pierce the focus' plane near the focus and end there at the latest.
   HWY_INLINE M ends_there(size_t i) {
     const RayFloats d;
     const int* axis = packet_.projection.axis;

@@ -28,7 +28,7 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct PacketTable {
-  // By beam, then of the whole packet: depth = plane * scale + offset.
+  // One element per beam, then one for the whole packet: depth = plane * scale + offset.
   struct Entry {
     alignas(64) float near_scale[kBeams + 1];
     alignas(64) float near_offset[kBeams + 1];

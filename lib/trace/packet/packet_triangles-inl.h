@@ -45,7 +45,7 @@ using HalfDoubles = hn::Rebind<double, HalfFloats>;
 
 // The four triangles of a block before a packet.
 struct PacketBlock {
-  // By edge, then triangle: the edge function's constant and factors.
+  // The edge functions' constants and factors, by edge, then triangle.
   alignas(16) float constant[3][4];
   alignas(16) float along_x[3][4];
   alignas(16) float along_y[3][4];

@@ -4,7 +4,7 @@
 
 namespace sobb {
 
-// Whether a ray looks for its closest hit, or for any (an occlusion query).
+// A ray looks for its closest hit, or for any (an occlusion query).
 enum class Query { kClosest, kAny };
 
 }  // namespace sobb

@@ -26,7 +26,7 @@ using RayFloats = hn::CappedTag<float, kMaxRayLanes>;
 using RayWords = hn::RebindToUnsigned<RayFloats>;
 inline constexpr uint32_t kRayLanes = hn::MaxLanes(RayFloats());
 
-// Whether all three components of vectors are finite, given their magnitudes.
+// Returns whether all three components of vectors are finite, given their magnitudes.
 HWY_INLINE hn::Mask<RayFloats> are_finite(const hn::Vec<RayFloats> (&size)[3]) {
   const RayFloats d;
   const auto most = hn::Set(d, FLT_MAX);
@@ -63,7 +63,7 @@ struct RayVectors {
   HWY_INLINE M has_valid_interval() const {
     return hn::And(hn::Ge(tmin, hn::Zero(RayFloats())), hn::Eq(tmax, tmax));
   }
-  // From the magnitudes of the direction's components, and the largest of them.
+  // `size` are the magnitudes of the direction's components, `largest` the largest of them.
   static HWY_INLINE M has_valid_direction(const V (&size)[3], V largest) {
     return hn::And(are_finite(size), hn::Gt(largest, hn::Zero(RayFloats())));
   }

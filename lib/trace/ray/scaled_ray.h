@@ -43,7 +43,7 @@ struct ScaledRay {
   static constexpr float kLongest = 0x1p20F;
   static constexpr float kRelativeError = 16 * kUnit;
   static constexpr float kLeastError = 0x1p-100F;
-  // Beyond this the products of the slab test could overflow.
+  // The products of the slab test could overflow beyond this distance.
   static constexpr float kFurthest = 0x1p62F;
 
   HWY_INLINE ScaledRay(const TraceScene& scene, const sobb_ray& ray) : scale(1) {

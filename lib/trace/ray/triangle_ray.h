@@ -35,7 +35,7 @@ struct TriangleRay {
     shear_y = ray.direction[axis[1]] / direction_z;
   }
 
-  // From parts that a vector of rays has made: `largest` is the last axis, the rest is permuted.
+  // Takes parts that a vector of rays has made: `largest` is the last axis, the rest is permuted.
   HWY_INLINE TriangleRay(int largest, const double (&from)[3], const double (&shear)[2], double dz)
       : axis{kNext[largest], kNext[kNext[largest]], largest},
         origin{from[0], from[1], from[2]},

@@ -62,7 +62,7 @@ class ArrayTracer {
     return kernels_.single(tracer_, rays, count, results, nullptr);
   }
 
-  // Likewise, ray by ray, and says what each took.
+  // Traces a task ray by ray, and says what each took.
   uint64_t count(const sobb_ray* rays, uint64_t count, Result* results, sobb_count* counts) const {
     return kernels_.single(tracer_, rays, count, results, counts);
   }

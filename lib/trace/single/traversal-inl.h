@@ -77,8 +77,8 @@ HWY_INLINE StackKey push_all_but_nearest(const TraceScene& scene, const Node& no
   return nearest;
 }
 
-// The same for an any-hit query: in the node's order, since the last child is the likeliest to have
-// a hit. Returns the last child's key.
+// Pushes the children met of an any-hit query, in the node's order, without the last, whose key it
+// returns: the last child is the likeliest to have a hit.
 template <class Node>
 HWY_INLINE StackKey push_all_but_last(const TraceScene& scene, const Node& node, uint32_t mask,
                                       StackKey*& top) {

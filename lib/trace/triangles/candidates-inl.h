@@ -42,7 +42,7 @@ class CandidateList {
     count_ = count;
   }
 
-  // Whether there is room for one more leaf.
+  // Tells whether there is room for one more leaf.
   bool has_room() const { return count_ < kMost; }
 
   // Calls offer(name, block, first, lanes, hits) for each candidate, and empties the list.
@@ -56,7 +56,7 @@ class CandidateList {
   }
 
  private:
-  // As many triangles of a block as a vector has lanes, `lanes` of which may be hits.
+  // An entry is as many triangles of a block as a vector has lanes; those of `lanes` may be hits.
   struct Entry {
     TriangleHits hits;
     const TriangleBlock* block;

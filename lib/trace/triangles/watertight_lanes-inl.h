@@ -21,21 +21,21 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A vertex's coordinate projected along the ray, rounded to float.
+// Projects a vertex's coordinate along the ray, and rounds it to float.
 template <class D>
 HWY_INLINE hn::Vec<D> project(D d, hn::Vec<D> at, hn::Vec<D> shear, hn::Vec<D> depth) {
   const hn::Rebind<float, D> df;
   return hn::PromoteTo(d, hn::DemoteTo(df, hn::Sub(at, hn::Mul(shear, depth))));
 }
 
-// The weight of the third vertex, from the projections of two.
+// Returns the weight of the third vertex, from the projections of two.
 template <class V>
 HWY_INLINE V vertex_weight(V ax, V ay, V bx, V by) {
   return hn::Sub(hn::Mul(ax, by), hn::Mul(ay, bx));
 }
 
-// Whether the ray goes through the triangle, by the weights. Where one is not a number, from
-// overflow, t is not either.
+// Returns whether the ray goes through the triangle, by the weights. Where one is not a number,
+// from overflow, t is not either.
 template <class D>
 HWY_INLINE hn::Mask<D> is_inside(D d, hn::Vec<D> w0, hn::Vec<D> w1, hn::Vec<D> w2) {
   const auto zero = hn::Zero(d);
@@ -43,14 +43,15 @@ HWY_INLINE hn::Mask<D> is_inside(D d, hn::Vec<D> w0, hn::Vec<D> w1, hn::Vec<D> w
                 hn::Le(hn::Max(hn::Max(w0, w1), w2), zero));
 }
 
-// Where the ray meets the triangle's plane, from the weights, their sum and the vertices' depths.
+// Returns where the ray meets the triangle's plane, from the weights, their sum and the vertices'
+// depths.
 template <class V>
 HWY_INLINE V hit_distance(V w0, V w1, V w2, V sum, V z0, V z1, V z2, V direction_z) {
   return hn::Div(hn::Add(hn::Add(hn::Mul(w0, z0), hn::Mul(w1, z1)), hn::Mul(w2, z2)),
                  hn::Mul(sum, direction_z));
 }
 
-// Whether what is inside is a hit: the triangle is not seen edge-on, and ahead.
+// Returns whether what is inside is a hit: the triangle is ahead, and not seen edge-on.
 template <class D>
 HWY_INLINE hn::Mask<D> is_hit(D d, hn::Mask<D> inside, hn::Vec<D> sum, hn::Vec<D> t) {
   const auto zero = hn::Zero(d);

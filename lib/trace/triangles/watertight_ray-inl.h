@@ -106,7 +106,7 @@ class WatertightRay4 {
                    hn::Set(d, ray_.origin[k]));
   }
 
-  // The same coordinate projected along the ray.
+  // That coordinate projected along the ray.
   HWY_INLINE V projected(const float (&vertex)[3][4], size_t first, int k, double shear,
                          V depth) const {
     const Doubles d;

@@ -77,7 +77,7 @@ class Wave {
   }
 
  private:
-  // Where RaySetup puts rays: in free places of the wave.
+  // RaySetup puts rays into these free places of the wave.
   struct Places {
     static constexpr bool kTriangleRays = true;
     Ray* of[kRayLanes];

@@ -6,7 +6,7 @@
 
 namespace sobb::study {
 
-// Of all ways to make leaves of at most kMaxLeafReferences triangles out of whole subtrees, returns
+// Makes leaves of at most kMaxLeafReferences triangles out of whole subtrees. Of all ways, it takes
 // one of the least cost by the surface area heuristic. `areas` has one value per node.
 BinaryTree choose_leaves(const BinaryTree& tree, const std::vector<float>& areas);
 
