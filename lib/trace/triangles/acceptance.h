@@ -6,6 +6,8 @@
 // at once, acceptance_lanes-inl.h compares in lanes and asks the conditions here.
 #pragma once
 
+#include <hwy/base.h>
+
 #include <cstdint>
 
 #include "sobb/sobb.h"
@@ -22,8 +24,8 @@ struct Candidate {
 };
 
 // The order of hits: by t, at equal t by (instance, geometry, primitive). Only primitives differ.
-inline bool precedes(const Candidate& a, const Candidate& b) {
-  return a.t != b.t ? a.t < b.t : a.primitive < b.primitive;
+HWY_INLINE bool precedes(const Candidate& a, const Candidate& b) {
+  return a.t == b.t ? a.primitive < b.primitive : a.t < b.t;
 }
 
 // Conditions that a query adds, such as a mask or an excluded primitive. Each is a class with
@@ -42,7 +44,7 @@ using QueryConditions = Conditions<>;
 
 // `best` is the best hit so far, at first the interval's end.
 template <class List = QueryConditions>
-bool accepts(const Candidate& candidate, float tmin, const Candidate& best) {
+HWY_INLINE bool accepts(const Candidate& candidate, float tmin, const Candidate& best) {
   return candidate.t >= tmin && precedes(candidate, best) && List::allow(candidate);
 }
 

@@ -158,9 +158,8 @@ class Wave {
   }
 
   HWY_INLINE void choose(Ray& ray, const Node& node, const Children& children) {
-    StackKey* top = ray.top;
-    const StackKey key = children.push_all_but_next(node, top);
-    go_on(ray, top, key);
+    const auto next = children.push_all_but_next(node, ray.top);
+    go_on(ray, next.top, next.key);
   }
 
   // Tests all leaves' triangles, then takes the hits, then goes on.

@@ -70,13 +70,20 @@ class WaveChildren {
     }
   }
 
-  // Pushes the children met without the one to visit next, whose key it returns: the nearest, or in
+  // What to visit next, and the stack's top without it.
+  struct Next {
+    StackKey key;
+    StackKey* top;
+  };
+
+  // Pushes the children met without the one to visit next, which it returns: the nearest, or in
   // an any-hit query the node's last. Where none is met it takes what is on top of the stack.
-  HWY_INLINE StackKey push_all_but_next(const Node& node, StackKey*& top) const {
+  HWY_INLINE Next push_all_but_next(const Node& node, StackKey* top) const {
     if constexpr (kQuery == Query::kAny) {
       top = push(top, met_, node) - 1;
-      return *top;
+      return {*top, top};
     }
+    const uint32_t met = met_;
     const Words du;
     auto least = keys_[0];
     for (size_t i = 1; i < kParts; ++i) least = hn::Min(least, keys_[i]);
@@ -90,10 +97,9 @@ class WaveChildren {
     // before this visit ends.
     const StackKey nearest_key = StackKey{hn::GetLane(least)} << 32 | node.reference[nearest];
     const StackKey on_top = top[-1];
-    top = push(top, met_ & ~(1U << nearest), node);
-    const uint64_t none = (uint64_t{met_} - 1) >> 63;  // compilers would make a branch of a choice
-    top -= none;
-    return nearest_key ^ ((nearest_key ^ on_top) & (0 - none));
+    top = push(top, met & ~(1U << nearest), node);
+    const uint64_t none = (uint64_t{met} - 1) >> 63;  // compilers would make a branch of a choice
+    return {nearest_key ^ ((nearest_key ^ on_top) & (0 - none)), top - none};
   }
 
  private:
