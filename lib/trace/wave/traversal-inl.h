@@ -63,8 +63,9 @@ class Wave {
     next_ = memory.queue[1];
   }
 
-  // Returns how many rays were not valid.
-  uint64_t trace() {
+  // Returns how many rays were not valid. Kept out of its callers, where GCC leaves it fewer
+  // registers: inlined on SSE4 it loses 1 to 6 % of bounces and random rays.
+  HWY_NOINLINE uint64_t trace() {
     for (;;) {
       for (int i = 0; i < kVisits; ++i) next_[i].count = 0;
       for (size_t i = 0; i < now_[kVisitNothing].count; ++i) finish(*now_[kVisitNothing].ray[i]);
