@@ -15,7 +15,7 @@ from sobb.error import Error, Status
 from sobb.hierarchy import Hierarchy, build
 from sobb.library import resolve_isa, version
 from sobb.oracle import brute_force
-from sobb.scene import Mesh, Scene
+from sobb.scene import Mesh, Note, Scene
 from sobb.view import View
 
 __all__ = [
@@ -25,6 +25,7 @@ __all__ = [
     "Error",
     "Hierarchy",
     "Mesh",
+    "Note",
     "Scene",
     "Status",
     "View",

@@ -71,6 +71,7 @@ class SceneInfo:
     view_count: int
     bounds_min: Corner
     bounds_max: Corner
+    note_count: int
 
 
 def from_struct(kind: type[Info], struct: structs.SizedStruct) -> Info:

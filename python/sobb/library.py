@@ -72,6 +72,8 @@ _SCENE_SIGNATURES: _Signatures = {
     "sobb_scene_release": (None, [c_void_p]),
     "sobb_scene_get_info": (c_int, [c_void_p, POINTER(structs.SceneInfo)]),
     "sobb_scene_triangles": (c_int, [c_void_p, POINTER(structs.Triangles)]),
+    "sobb_scene_get_note": (c_int, [c_void_p, c_uint64, POINTER(structs.SceneNote)]),
+    "sobb_note_cause_name": (c_char_p, [c_uint32]),
     "sobb_scene_mesh": (c_int, [c_void_p, c_uint64, POINTER(structs.SceneMesh)]),
     "sobb_scene_view": (c_int, [c_void_p, c_uint64, POINTER(structs.SceneView)]),
 }

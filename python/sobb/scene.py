@@ -26,6 +26,15 @@ class Mesh:
     triangle_count: int
 
 
+@dataclass(frozen=True)
+class Note:
+    """What loading passed over for one cause."""
+
+    cause: str  # such as "faces of fewer than three corners"
+    count: int
+    message: str  # the first of them, its place and fault
+
+
 class Scene:
     """An immutable scene, made by Scene.load(). As a context manager it closes itself."""
 
@@ -107,6 +116,17 @@ class Scene:
         info = structs.SceneInfo()
         check(library.scene().sobb_scene_get_info(self.handle, byref(info)))
         return from_struct(SceneInfo, info)
+
+    @property
+    def notes(self) -> list[Note]:
+        """What loading passed over, a note per cause; empty for a file without faults."""
+        lib, handle, note, notes = library.scene(), self.handle, structs.SceneNote(), []
+        for i in range(self.info.note_count):
+            check(lib.sobb_scene_get_note(handle, i, byref(note)))
+            cause = lib.sobb_note_cause_name(note.cause).decode()
+            message = (note.message or b"").decode("utf-8", "replace")
+            notes.append(Note(cause, note.count, message))
+        return notes
 
     @property
     def meshes(self) -> list[Mesh]:

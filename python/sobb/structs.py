@@ -133,6 +133,16 @@ class SceneInfo(SizedStruct):
         ("view_count", c_uint64),
         ("bounds_min", c_float * 3),
         ("bounds_max", c_float * 3),
+        ("note_count", c_uint64),
+    ]
+
+
+class SceneNote(SizedStruct):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("cause", c_uint32),
+        ("count", c_uint64),
+        ("message", c_char_p),
     ]
 
 

@@ -90,7 +90,26 @@ typedef struct sobb_scene_info {
   uint64_t view_count; /**< at least 1 */
   float bounds_min[3]; /**< of the vertices that triangles use */
   float bounds_max[3];
+  uint64_t note_count; /**< notes on what was passed over, at most one per cause */
 } sobb_scene_info;
+
+/** Why a part of a scene's source was passed over. Values are never reused. */
+typedef enum sobb_note_cause {
+  SOBB_NOTE_SHORT_FACE = 1,    /**< faces of fewer than three corners, which have no triangle */
+  SOBB_NOTE_UNUSED_VERTEX = 2, /**< vertices not finite or beyond 2^60 that no triangle uses */
+  SOBB_NOTE_SURPLUS = 3,       /**< values or bytes behind those that the file declares */
+  SOBB_NOTE_UNUSED_ITEM = 4,   /**< malformed items of a document that no triangle needs */
+  SOBB_NOTE_EXTENSION = 5,     /**< extensions that were not read and move no triangle */
+  SOBB_NOTE_VIEWS = 6          /**< a cameras.json beside the scene that holds no views of sobb */
+} sobb_note_cause;
+
+/** What loading passed over for one cause; filled by sobb_scene_get_note(). */
+typedef struct sobb_scene_note {
+  uint32_t struct_size;
+  uint32_t cause;      /**< sobb_note_cause */
+  uint64_t count;      /**< items passed over */
+  const char* message; /**< the first of them, its place and fault; owned by the scene */
+} sobb_scene_note;
 
 /**
  * Loads a scene.
@@ -117,6 +136,16 @@ SOBB_API void sobb_scene_release(sobb_scene* scene);
 
 /** Fills @p info up to its struct_size. */
 SOBB_API sobb_status sobb_scene_get_info(const sobb_scene* scene, sobb_scene_info* info);
+
+/**
+ * Fills @p note with note @p index (below note_count) up to its struct_size. Notes are in order of
+ * their causes.
+ */
+SOBB_API sobb_status sobb_scene_get_note(const sobb_scene* scene, uint64_t index,
+                                         sobb_scene_note* note);
+
+/** A cause in words for people, such as "faces of fewer than three corners"; never NULL. */
+SOBB_API const char* sobb_note_cause_name(uint32_t cause);
 
 /** The scene's triangles, ready for sobb_build(); the arrays live as long as the scene. */
 SOBB_API sobb_status sobb_scene_triangles(const sobb_scene* scene, sobb_triangles* triangles);

@@ -9,6 +9,7 @@
 
 #include "../guard.h"
 #include "scene/load.h"
+#include "scene/model/notes.h"
 
 struct sobb_scene {
   explicit sobb_scene(sobb::Scene loaded) : scene(std::move(loaded)) {}
@@ -70,11 +71,26 @@ sobb_status sobb_scene_get_info(const sobb_scene* scene, sobb_scene_info* info) 
     known.degenerate_count = from.degenerate_count;
     known.mesh_count = from.meshes.size();
     known.view_count = from.views.size();
+    known.note_count = from.notes.size();
     std::copy(from.bounds_min.begin(), from.bounds_min.end(), known.bounds_min);
     std::copy(from.bounds_max.begin(), from.bounds_max.end(), known.bounds_max);
     sobb::write_info(known, info, "sobb_scene_info");
   });
 }
+
+sobb_status sobb_scene_get_note(const sobb_scene* scene, uint64_t index, sobb_scene_note* note) {
+  return sobb::guard([&] {
+    sobb::require(scene, "scene");
+    const sobb::SceneNote& from = element(scene->scene.notes, index, "note");
+    sobb_scene_note known{};
+    known.cause = from.cause;
+    known.count = from.count;
+    known.message = from.first.c_str();
+    sobb::write_info(known, note, "sobb_scene_note");
+  });
+}
+
+const char* sobb_note_cause_name(uint32_t cause) { return sobb::note_cause_name(cause); }
 
 sobb_status sobb_scene_triangles(const sobb_scene* scene, sobb_triangles* triangles) {
   return sobb::guard([&] {

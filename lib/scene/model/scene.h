@@ -24,12 +24,20 @@ struct SceneMesh {
   uint64_t triangle_count = 0;
 };
 
+// What a reader passed over for one cause, see sobb_scene_note.
+struct SceneNote {
+  sobb_note_cause cause;
+  uint64_t count;
+  std::string first;
+};
+
 struct Scene {
   std::vector<float> vertices;    // x, y, z
   std::vector<uint32_t> indices;  // three per triangle
   std::vector<SceneMesh> meshes;  // in order, disjoint, covering all triangles, none empty
   std::vector<sobb_view> views;
-  bool default_view = false;  // the one view was made, not read
+  bool default_view = false;     // the one view was made, not read
+  std::vector<SceneNote> notes;  // at most one per cause, in the order of causes
 
   // SceneWriter::finish() measures these.
   uint64_t degenerate_count = 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "scene/model/notes.h"
 #include "scene/model/scene.h"
 
 namespace sobb {
@@ -99,6 +100,12 @@ class SceneWriter {
 
   // The first part of expect(), without making room. Error TOO_LARGE.
   void check_counts(uint64_t vertices, uint64_t triangles) const;
+
+  // Passes `count` items of the source over, see add_note().
+  template <std::invocable Message>
+  void note(sobb_note_cause cause, const Message& message, uint64_t count = 1) {
+    add_note(scene_, cause, message, count);
+  }
 
   // Keeps a camera of the source, from which views can be made once the scene is measured.
   void add_camera(const SceneCamera& camera) { cameras_.push_back(camera); }

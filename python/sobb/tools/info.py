@@ -35,8 +35,11 @@ def run(options: Namespace) -> None:
     if options.json:
         print(json.dumps(facts, indent=2))
         return
+    notes = facts.pop("notes", [])
     for name, value in facts.items():
         print(f"{name:16}{_text(value)}")
+    for note in notes:
+        print(f"{'passed over':16}{note['count']} ({note['cause']}): {note['message']}")
 
 
 def _of_scene(scene: Scene) -> _Facts:
@@ -50,6 +53,7 @@ def _of_scene(scene: Scene) -> _Facts:
         "bounds_min": info.bounds_min,
         "bounds_max": info.bounds_max,
         "default_view": bool(info.default_view),
+        "notes": [asdict(note) for note in scene.notes],
         "meshes": [asdict(mesh) for mesh in scene.meshes],
         "views": [asdict(view) for view in scene.views],
     }
