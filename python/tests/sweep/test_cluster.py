@@ -14,22 +14,6 @@ distributed = pytest.importorskip("distributed")
 
 import interrupts  # noqa: E402
 
-SWEEP = """
-scenes = ["builtin:city:500", "builtin:pipes:500", "builtin:terrain:500"]
-methods = ["aabb", "sobb", "embree", "obb"]
-rays = ["primary"]
-size = 8
-repetitions = 2
-min_time = 0.001
-"""
-
-
-@pytest.fixture
-def toml(tmp_path):
-    path = tmp_path / "sweep.toml"
-    path.write_text(SWEEP)
-    return path
-
 
 @pytest.fixture
 def cluster():

@@ -17,22 +17,6 @@ from sobb.tools.shared import host_lock  # noqa: E402
 from sobb.tools.sweep import plan, process, spec  # noqa: E402
 from sobb.tools.sweep.records import CRASHED, DONE, FAILED, MEMORY, TIMEOUT  # noqa: E402
 
-SWEEP = """
-scenes = ["builtin:city:500", "builtin:pipes:500", "builtin:terrain:500"]
-methods = ["aabb", "sobb", "embree", "obb"]
-rays = ["primary"]
-size = 8
-repetitions = 2
-min_time = 0.001
-"""
-
-
-@pytest.fixture
-def toml(tmp_path):
-    path = tmp_path / "sweep.toml"
-    path.write_text(SWEEP)
-    return path
-
 
 @pytest.mark.parametrize(
     ("text", "message"),
@@ -83,7 +67,7 @@ def test_subdivisions():
 
 
 def test_a_refined_scene_has_more_triangles(cli, tmp_path, toml):
-    toml.write_text(SWEEP.replace("]", "]\nsubdivisions = [1, 16]", 1))
+    toml.write_text(toml.read_text().replace("]", "]\nsubdivisions = [1, 16]", 1))
     out, fewer = tmp_path / "r.duckdb", ("--scenes", "builtin:city:500", "--methods", "sobb")
     assert cli("sweep", toml, *fewer, "--out", out).returncode == 0
     with duckdb.connect(str(out), read_only=True) as connection:
