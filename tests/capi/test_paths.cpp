@@ -71,8 +71,8 @@ bool same(const std::vector<sobb_ray>& a, const std::vector<sobb_ray>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
 }
 
-// Of every bounce: one ray a hit, of unit length, from just beyond the triangle on the side that
-// the ray before came from, away from it, and by the cosine: of mean 2/3.
+// Every bounce has one ray per hit, of unit length. The ray starts just off the triangle, on the
+// side that the ray before came from, and leaves it by the cosine, whose mean is 2/3.
 TEST_F(Paths, LeaveTheSurfaceByTheCosine) {
   const bench::ClosestHits hits_of = hits_by(SOBB_VOLUME_AABB, 2);
   RaySet before = primary_;

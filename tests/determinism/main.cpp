@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same bytes and the same hits, whatever the threads and the instruction set: prints a hash for
-// each scene and choice of options, as tests/determinism/hashes.txt has them, for this build to be
-// compared with others.
-// usage: sobb_hashes RAYS [TABLE]   RAYS a scene; compares with TABLE instead of printing
+// Checks that bytes and hits do not depend on threads and instruction sets, and prints a hash for
+// each scene and choice of options, as tests/determinism/hashes.txt has them. So builds by
+// different compilers can be compared.
+//
+// usage: sobb_hashes RAYS [TABLE]   RAYS per scene; compares with TABLE instead of printing
 #include <oneapi/tbb/global_control.h>
 #include <xxhash.h>
 

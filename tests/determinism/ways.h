@@ -25,13 +25,15 @@ struct Shape {
 inline constexpr Shape kShapes[] = {
     {SOBB_VOLUME_AABB, 6, 8}, {SOBB_VOLUME_SOBB, 32, 4}, {SOBB_VOLUME_SOBB, 64, 8}};
 
-// By the best instruction set from 1, 2, 3 and 8 threads of a host that deals its tasks to them in
-// turn, by the least from 1 and from 8 of TBB's.
+// Builds on 1, 2, 3 and 8 threads of a host that deals its tasks to them in turn, and by every
+// instruction set on 1 and on 8 of TBB's. Returns one of the hierarchies, which have to be the
+// same.
 Handle build_every_way(const Soup& scene, const Shape& shape, uint32_t quality);
 
 std::string_view bytes_of(const Handle& hierarchy);
 
-// The hits of so many rays by every hierarchy of a scene, which are all the same.
+// Traces `rays` rays through every hierarchy of a scene. Returns the hits, which have to be the
+// same.
 std::vector<sobb_hit> trace_every_way(const Soup& scene, const std::vector<Handle>& hierarchies,
                                       uint32_t rays);
 

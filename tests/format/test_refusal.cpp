@@ -323,8 +323,7 @@ TEST(FormatRefusalTree, AChainTooDeepIsNoticed) {
   EXPECT_STREQ(error->what(), "scene.sobb: node 95, child 0: more than 96 nodes deep");
 }
 
-// Of several faults the message names the one with the lowest index, whichever thread meets its own
-// first.
+// The message names the fault with the lowest index, whichever thread meets its own first.
 TEST(FormatRefusalOrder, DoesNotDependOnThreads) {
   SmallFile chain = test::make_chain(20000);
   chain.fields.depth = 1;

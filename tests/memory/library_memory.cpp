@@ -30,8 +30,8 @@ std::string_view module_of(const void* address) {
   return path.substr(path.rfind('/') + 1);
 }
 
-// Whether the library asks, or one that reads a scene for it: the first on the stack that is not
-// this program, whose operator new it is, nor the standard library.
+// Tells whether the library asks for memory, or one that reads a scene for it. That is the first on
+// the stack besides this program, whose operator new it is, and the standard library.
 bool library_asks() {
   static thread_local bool asking = false;  // the unwinder may allocate
   if (asking) return false;

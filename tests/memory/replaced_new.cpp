@@ -19,7 +19,7 @@ void* operator new(size_t size, const std::nothrow_t&) noexcept {
 void* operator new[](size_t size, const std::nothrow_t&) noexcept {
   return sobb::test::new_block(size);
 }
-// As new_block() aligns; beyond that nobody asks.
+// new_block() aligns as far as the library and its tests ask.
 void* operator new(size_t size, std::align_val_t alignment) {
   return static_cast<size_t>(alignment) <= sobb::test::kNewAlignment ? operator new(size)
                                                                      : throw std::bad_alloc();

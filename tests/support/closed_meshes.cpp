@@ -8,7 +8,8 @@
 namespace sobb::test {
 namespace {
 
-// Of rings and poles about (0.5, 0.5, 0.5); `radius` by polar and azimuthal angle.
+// Makes a sphere of rings and poles about (0.5, 0.5, 0.5). `radius` takes the polar angle and the
+// azimuth.
 Soup sphere(const char* name, uint32_t rings, uint32_t sides,
             const std::function<double(double, double)>& radius) {
   Soup soup{name, {}, {}};

@@ -187,7 +187,7 @@ class Maker {
   Normals normals_;
   Random random_;
   double size_;
-  // Of the bundle under way.
+  // State of the bundle that next rays belong to.
   uint32_t bundled_ = 0;
   Vec target_;
   Vec point_;

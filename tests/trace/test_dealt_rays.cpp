@@ -46,8 +46,8 @@ TEST(DealtRays, EachWayGetsItsShareOnceAndInOrder) {
   }
 }
 
-// So that modes are compared over rays that cost alike: of any first part of the task each mode has
-// its share, to a run or two.
+// Modes are compared over rays that cost alike, so each mode has its share of any first part of the
+// task, to a run or two.
 TEST(DealtRays, SharesComeFromAllOverTheTask) {
   const std::vector<sobb_ray> rays = numbered();
   const auto dealt = std::make_unique<Dealt>();

@@ -118,7 +118,8 @@ TEST(Triangle, NeighboursLeaveNoGap) {
       ray.origin[k] = random.between(-0.1, 0.1);
       ray.direction[k] = static_cast<float>(a[k] + s * (static_cast<double>(b[k]) - a[k]));
     }
-    // To the left and the right of the edge as the ray sees it; all at a like depth.
+    // Points c and d lie to the left and the right of the edge as the ray sees it, all four at a
+    // like depth.
     const float x = b[1] - a[1];
     const float y = a[0] - b[0];
     for (float* point : {a, b, c, d}) point[2] = random.between(1.9, 2.1);

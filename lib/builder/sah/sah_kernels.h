@@ -191,7 +191,7 @@ const SahKernels& sah_kernels(sobb_isa isa);
 Binning make_binning(SplitKind kind, const SahNode& node, const Split& best,
                      const Cutting* cutting);
 
-// Whether a split should replace the best so far, of another kind.
+// Tells whether `split` should replace `best`, a split of another kind.
 bool is_better(const SahNode& node, const Split& split, const Split& best);
 
 // Makes the sides of a split as nodes without extent, of `count` references each: next to each

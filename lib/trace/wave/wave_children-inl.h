@@ -65,7 +65,7 @@ class WaveChildren {
       keys_[i] = key_triangle_words<kWidth>(node, first);
       if constexpr (kQuery == Query::kAny) continue;  // nothing is culled; the node's order
       keys_[i] = hn::Or(keys_[i], key_distance_words<kWidth>(near));
-      // So that those missed come last.
+      // A missed child gets the largest key, which is sorted last.
       keys_[i] = hn::Or(keys_[i], hn::BitCast(du, hn::VecFromMask(d, missed)));
     }
   }
