@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installation: libraries, headers, the CMake package `sobb` (components core and scene) and the
-# pkg-config modules sobb and sobb_scene.
+# pkg-config modules sobb and sobb_scene. The build folder is such a package, too: find_package finds
+# it where CMAKE_PREFIX_PATH or sobb_DIR names it.
 
 include(CMakePackageConfigHelpers)
 
@@ -15,8 +16,10 @@ endif()
 install(TARGETS ${sobb_libraries} EXPORT sobbTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT sobbTargets NAMESPACE sobb:: DESTINATION ${sobb_package_dir})
+export(EXPORT sobbTargets NAMESPACE sobb:: FILE ${PROJECT_BINARY_DIR}/sobbTargets.cmake)
 
 configure_package_config_file(cmake/sobbConfig.cmake.in ${PROJECT_BINARY_DIR}/sobbConfig.cmake
   INSTALL_DESTINATION ${sobb_package_dir} NO_SET_AND_CHECK_MACRO)
@@ -29,12 +32,13 @@ install(FILES ${PROJECT_BINARY_DIR}/sobbConfig.cmake ${PROJECT_BINARY_DIR}/sobbC
 # The modules find their prefix from where they lie, so that an installation can be moved. What the
 # libraries need stands in Libs.private, for `pkg-config --static` only: Requires.private would ask
 # for the development files of every dependency even where the libraries are shared.
-file(RELATIVE_PATH sobb_prefix_from_pc
-  ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+set(sobb_pc_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH sobb_prefix_from_pc ${sobb_pc_dir} ${CMAKE_INSTALL_PREFIX})
+file(RELATIVE_PATH sobb_include_from_pc ${sobb_pc_dir} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
 foreach(library IN LISTS sobb_libraries)
   configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${library}.pc
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()
 
-install(FILES LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/sobb)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Tests of the package: the consumer project against installations below the build folder, found
-# by find_package and by pkg-config: of this build, and of one with static libraries.
+# Tests of the package: the consumer project against the build folder, and against installations
+# below it, found by find_package and by pkg-config: of this build, and of one with static libraries.
+# Builds inside of other projects are in scripts/guest_check.sh.
 
 set(consumer_dir ${CMAKE_CURRENT_BINARY_DIR}/consumer)
 
@@ -11,7 +12,7 @@ function(sobb_add_consumer_tests name prefix)
     --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_dir}/${name}
     --build-generator ${CMAKE_GENERATOR}
     --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}
-    --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure)
+    --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure --no-tests=error)
   add_test(NAME consumer.${name}.pkg_config COMMAND
     ${CMAKE_CURRENT_SOURCE_DIR}/consumer/pkg_config.sh ${CMAKE_C_COMPILER}
     ${prefix}/${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/${name}_pkg_config ${ARGN})
@@ -26,6 +27,13 @@ if(BUILD_SHARED_LIBS)
     --install ${PROJECT_BINARY_DIR} --prefix ${consumer_dir}/shared_prefix)
   sobb_add_consumer_tests(shared ${consumer_dir}/shared_prefix)
 endif()
+
+# The build folder is a package, too.
+add_test(NAME consumer.build_tree COMMAND ${CMAKE_CTEST_COMMAND}
+  --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_dir}/build_tree
+  --build-generator ${CMAKE_GENERATOR}
+  --build-options -Dsobb_DIR=${PROJECT_BINARY_DIR} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}
+  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure --no-tests=error)
 
 # Compiled as this build is, so that a compiler cache has the objects. In two steps: a process that
 # has configured leaves another locale to what it starts, and the cache counts that.

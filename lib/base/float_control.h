@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// FloatControl sets the floating-point control word that all results rest on.
+// The floating-point arithmetic that all results rest on: FloatControl sets the control word, and a
+// compiler that may change the arithmetic is refused.
 #pragma once
 
 #include <xmmintrin.h>
+
+#include <cfloat>
+
+// CMake's build undoes what CMAKE_CXX_FLAGS asks for (cmake/SobbCompileOptions.cmake). GCC's
+// __GCC_IEC_559 is 2 unless some part of -ffast-math is on; clang has macros for the whole only.
+#if defined(__FAST_MATH__) || __FINITE_MATH_ONLY__ || \
+    (defined(__GCC_IEC_559) && __GCC_IEC_559 < 2) || FLT_EVAL_METHOD != 0
+#error "sobb needs IEEE 754 arithmetic: no -ffast-math, -Ofast, a part of them, or -mfpmath=387"
+#endif
 
 namespace sobb {
 

@@ -1,0 +1,150 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Proves that the library is a good guest in the builds of other projects: tests/consumer/parent takes
+# it in, in several ways, and its program has to print the same hashes of hits and files in each. The
+# release build has to be there: it is one of the ways, and its objects in the compilers' cache serve
+# most of the others. Prints what each case took.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+source scripts/packages.sh
+use_ccache
+
+parent=tests/consumer/parent
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+expected=
+
+fail() {
+  echo "$*" >&2
+  exit 1
+}
+
+# case NAME COMMAND...: runs one case in a shell of its own, whose output is shown if it fails.
+case_of() {
+  local name=$1 start=$SECONDS
+  shift
+  if ! (set -e; "$@") >"$log" 2>&1; then
+    cat "$log" >&2
+    fail "$name: FAILED"
+  fi
+  echo "$name: passed, $((SECONDS - start)) s"
+}
+
+# configure BUILD OPTION...: configures the parent, without a warning. With SOBB_WERROR the library's
+# commands are the release build's, so that the cache has its objects.
+configure() {
+  local build=$1
+  shift
+  rm -rf "$build"
+  cmake -S $parent -B "$build" -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
+    -D SOBB_SOURCE="$PWD" "$@" >"$build.log" 2>&1 || { cat "$build.log"; return 1; }
+  ! grep -A9 'CMake.*Warning' "$build.log"
+}
+
+# Builds a configured parent, runs its program, and compares what it prints with the other parents'.
+build_and_run() {
+  cmake --build "$1" --parallel "$(nproc)"
+  (cd "$1" && ctest --output-on-failure --no-tests=error)
+  "$1/parent" >"$1.hashes"
+  [[ -z $expected ]] || diff <(echo "$expected") "$1.hashes"
+}
+
+# flags BUILD SOURCE: the words of the command that compiles a file of the library.
+flags() {
+  grep '"command"' "$1/compile_commands.json" | grep -F "/lib/$2\"" | tr ' ' '\n'
+}
+
+# The release build's folder, found as a package.
+build_tree() {
+  configure build/guest-package -G Ninja -D PARENT_TAKES=package -D sobb_DIR="$PWD/build/release"
+  build_and_run build/guest-package
+}
+
+# By FetchContent, with nothing asked for: a static core and nothing else, built as the parent is. The
+# parent compares its own variables, policies and the like before and after.
+fetched() {
+  local build=build/guest-fetched
+  configure $build -G Ninja -D PARENT_TAKES=fetch -D SOBB_WERROR=ON
+  build_and_run $build
+  [[ $(find $build -name '*.a' -printf '%f ') =~ ^(libsobb.a libparent_library.a|libparent_library.a libsobb.a)\ $ ]]
+  [[ -z $(find $build/_deps/sobb-build -name 'CTestTestfile.cmake' -exec grep -l add_test {} +) ]]
+  cmake --install $build --prefix $build/prefix
+  [[ $(find $build/prefix -type f -printf '%P') == lib/libparent_library.a ]]
+}
+
+# Shared, installed with the parent by its wish, with the importers, under two configurations; the
+# installation is moved before it is used.
+shared() {
+  local build=build/guest-shared
+  configure $build -G Ninja -D BUILD_SHARED_LIBS=ON -D SOBB_INSTALL=ON -D SOBB_BUILD_SCENE=ON \
+    -D SOBB_WERROR=ON
+  build_and_run $build
+  rm -rf $build.moved
+  cmake --install $build --prefix $build/prefix
+  mv $build/prefix $build.moved
+  [[ -f $build.moved/lib/libparent_library.so ]]
+  cmake -S tests/consumer -B $build/consumer -G Ninja -D CMAKE_PREFIX_PATH="$PWD/$build.moved"
+  cmake --build $build/consumer
+  (cd $build/consumer && ctest --output-on-failure --no-tests=error)
+  tests/consumer/pkg_config.sh cc "$PWD/$build.moved/lib" $build/pkg_config
+}
+
+# A parent of C alone, with Makefiles, in a folder with spaces in its name, from sources that nobody
+# may write to. The cache finds the objects, because the folders lie to each other as here.
+c_alone() {
+  local house="build/a guest's house"
+  [[ ! -e $house ]] || chmod -R u+w "$house"
+  rm -rf "$house"
+  mkdir -p "$house/build"
+  git ls-files -z --cached --others --exclude-standard CMakeLists.txt capi cmake lib $parent LICENSE \
+    THIRD_PARTY_NOTICES.md | tar --create --null --files-from=- | tar --extract --directory="$house"
+  chmod -R a-w "$house"/[!b]*
+  find "$house" -path "$house/build" -prune -o -type f -print0 | sort -z | xargs -0 sha256sum >"$house/build/before"
+  cd "$house"
+  export CCACHE_BASEDIR=$PWD
+  configure build/guest-c -G 'Unix Makefiles' -D PARENT_LANGUAGES=C -D SOBB_WERROR=ON
+  build_and_run build/guest-c
+  cd - >/dev/null
+  find "$house" -path "$house/build" -prune -o -type f -print0 | sort -z | xargs -0 sha256sum |
+    diff "$house/build/before" -
+}
+
+# A parent that asks of all code what the library cannot stand: fast arithmetic, no exceptions, C++17,
+# unity builds, link-time optimisation, warnings as errors, headers of the library's names.
+rough() {
+  local build=build/guest-rough
+  configure $build -G Ninja -D PARENT_IS_ROUGH=ON
+  flags $build trace/kernels.cpp | grep -x -e -flto.*
+  build_and_run $build
+}
+
+# Where flags come behind the library's own, and ask for other arithmetic, it does not compile.
+refused() {
+  local flag
+  for flag in -ffast-math -Ofast -ffinite-math-only -funsafe-math-optimizations -freciprocal-math \
+    -fno-signed-zeros -mfpmath=387; do
+    ! g++ -std=c++20 $flag -I lib -I capi/include -fsyntax-only lib/base/scheduler.cpp 2>$log
+    grep -F "sobb needs IEEE 754 arithmetic" $log
+  done
+}
+
+# The core alone at top level, by the one option; a plain build does not turn warnings into errors.
+core_alone() {
+  local build=build/guest-core
+  rm -rf $build
+  cmake -S . -B $build -G Ninja -D SOBB_BUILD_SCENE=OFF -D CMAKE_EXPORT_COMPILE_COMMANDS=ON
+  ! grep -e ' -Werror' $build/compile_commands.json
+  cmake -D SOBB_WERROR=ON $build
+  cmake --build $build
+  (cd $build && ctest --output-on-failure --no-tests=error -R '^(base|docs|example|exports|layout)')
+}
+
+[[ -f build/release/sobbTargets.cmake ]] || fail "scripts/setup.sh makes the release build first."
+case_of "package in a build folder" build_tree
+expected=$(<build/guest-package.hashes)
+case_of "fetched, static" fetched
+case_of "shared, with importers, installed and moved" shared
+case_of "parent of C alone, Makefiles, spaces, sources read-only" c_alone
+case_of "core alone at top level" core_alone
+case_of "rough parent: fast arithmetic, link-time optimisation and more" rough
+case_of "arithmetic refused" refused
