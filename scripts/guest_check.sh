@@ -19,15 +19,27 @@ fail() {
   exit 1
 }
 
-# case NAME COMMAND...: runs one case in a shell of its own, whose output is shown if it fails.
-case_of() {
-  local name=$1 start=$SECONDS
+# check NAME COMMAND...: runs one case in a shell of its own, whose output is shown if it fails.
+check() {
+  local name=$1 start=$SECONDS status
   shift
-  if ! (set -e; "$@") >"$log" 2>&1; then
+  set +e # in a condition, the shell would pass over what fails within
+  (
+    set -e
+    "$@"
+  ) >"$log" 2>&1
+  status=$?
+  set -e
+  if ((status != 0)); then
     cat "$log" >&2
     fail "$name: FAILED"
   fi
   echo "$name: passed, $((SECONDS - start)) s"
+}
+
+# absent PATTERN FILE: the file has no such line; prints those that it has.
+absent() {
+  if grep -A9 -e "$1" "$2"; then return 1; fi
 }
 
 # configure BUILD OPTION...: configures the parent, without a warning. With SOBB_WERROR the library's
@@ -37,8 +49,8 @@ configure() {
   shift
   rm -rf "$build"
   cmake -S $parent -B "$build" -D CMAKE_BUILD_TYPE=Release -D CMAKE_EXPORT_COMPILE_COMMANDS=ON \
-    -D SOBB_SOURCE="$PWD" "$@" >"$build.log" 2>&1 || { cat "$build.log"; return 1; }
-  ! grep -A9 'CMake.*Warning' "$build.log"
+    -D SOBB_SOURCE="$PWD" "$@" 2>&1 | tee "$build.log"
+  absent 'CMake.*Warning' "$build.log"
 }
 
 # Builds a configured parent, runs its program, and compares what it prints with the other parents'.
@@ -121,10 +133,11 @@ rough() {
 # Where flags come behind the library's own, and ask for other arithmetic, it does not compile.
 refused() {
   local flag
+  set +o pipefail # it is the compiler that fails
   for flag in -ffast-math -Ofast -ffinite-math-only -funsafe-math-optimizations -freciprocal-math \
     -fno-signed-zeros -mfpmath=387; do
-    ! g++ -std=c++20 $flag -I lib -I capi/include -fsyntax-only lib/base/scheduler.cpp 2>$log
-    grep -F "sobb needs IEEE 754 arithmetic" $log
+    g++ -std=c++20 $flag -I lib -I capi/include -fsyntax-only lib/base/scheduler.cpp 2>&1 |
+      grep -F '#error "sobb needs IEEE 754 arithmetic'
   done
 }
 
@@ -133,18 +146,18 @@ core_alone() {
   local build=build/guest-core
   rm -rf $build
   cmake -S . -B $build -G Ninja -D SOBB_BUILD_SCENE=OFF -D CMAKE_EXPORT_COMPILE_COMMANDS=ON
-  ! grep -e ' -Werror' $build/compile_commands.json
+  absent ' -Werror' $build/compile_commands.json
   cmake -D SOBB_WERROR=ON $build
   cmake --build $build
   (cd $build && ctest --output-on-failure --no-tests=error -R '^(base|docs|example|exports|layout)')
 }
 
 [[ -f build/release/sobbTargets.cmake ]] || fail "scripts/setup.sh makes the release build first."
-case_of "package in a build folder" build_tree
+check "package in a build folder" build_tree
 expected=$(<build/guest-package.hashes)
-case_of "fetched, static" fetched
-case_of "shared, with importers, installed and moved" shared
-case_of "parent of C alone, Makefiles, spaces, sources read-only" c_alone
-case_of "core alone at top level" core_alone
-case_of "rough parent: fast arithmetic, link-time optimisation and more" rough
-case_of "arithmetic refused" refused
+check "fetched, static" fetched
+check "shared, with importers, installed and moved" shared
+check "parent of C alone, Makefiles, spaces, sources read-only" c_alone
+check "core alone at top level" core_alone
+check "rough parent: fast arithmetic, link-time optimisation and more" rough
+check "arithmetic refused" refused

@@ -90,6 +90,7 @@ if [[ $all == yes ]]; then
   check "ruff" ruff
   check "mypy" types
   check "wheel" scripts/wheel_check.sh
+  check "builds inside of other projects" scripts/guest_check.sh
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \

@@ -22,18 +22,21 @@ function(sobb_add_consumer_tests name prefix)
     FIXTURES_REQUIRED consumer_${name})
 endfunction()
 
+# Tests the build folder BUILD as a package.
+function(sobb_add_build_tree_test name build)
+  add_test(NAME consumer.${name}.build_tree COMMAND ${CMAKE_CTEST_COMMAND}
+    --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_dir}/${name}_build_tree
+    --build-generator ${CMAKE_GENERATOR}
+    --build-options -Dsobb_DIR=${build} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}
+    --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure --no-tests=error)
+endfunction()
+
 if(BUILD_SHARED_LIBS)
   add_test(NAME consumer.shared.install COMMAND ${CMAKE_COMMAND}
     --install ${PROJECT_BINARY_DIR} --prefix ${consumer_dir}/shared_prefix)
   sobb_add_consumer_tests(shared ${consumer_dir}/shared_prefix)
+  sobb_add_build_tree_test(shared ${PROJECT_BINARY_DIR})
 endif()
-
-# The build folder is a package, too.
-add_test(NAME consumer.build_tree COMMAND ${CMAKE_CTEST_COMMAND}
-  --build-and-test ${CMAKE_CURRENT_SOURCE_DIR}/consumer ${consumer_dir}/build_tree
-  --build-generator ${CMAKE_GENERATOR}
-  --build-options -Dsobb_DIR=${PROJECT_BINARY_DIR} -DCMAKE_C_COMPILER=${CMAKE_C_COMPILER}
-  --test-command ${CMAKE_CTEST_COMMAND} --output-on-failure --no-tests=error)
 
 # Compiled as this build is, so that a compiler cache has the objects. In two steps: a process that
 # has configured leaves another locale to what it starts, and the cache counts that.
@@ -51,3 +54,5 @@ set_tests_properties(consumer.static.configure PROPERTIES
 set_tests_properties(consumer.static.install PROPERTIES
   FIXTURES_REQUIRED consumer_static_configured)
 sobb_add_consumer_tests(static ${consumer_dir}/static_prefix --static)
+sobb_add_build_tree_test(static ${consumer_dir}/static_build)
+set_tests_properties(consumer.static.build_tree PROPERTIES FIXTURES_REQUIRED consumer_static)
