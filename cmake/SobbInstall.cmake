@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installation: libraries, headers, the CMake package `sobb` (components core and scene) and the
-# pkg-config modules sobb and sobb_scene. The build folder is such a package, too: find_package finds
-# it where CMAKE_PREFIX_PATH or sobb_DIR names it.
+# pkg-config modules sobb and sobb_scene. The build folder is such a package, too: find_package
+# finds it where CMAKE_PREFIX_PATH or sobb_DIR names it.
 
 include(CMakePackageConfigHelpers)
 
