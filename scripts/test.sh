@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Proves a build: sets up what is missing, builds the release, runs its tests and Python's, and checks
 # the format; ten minutes on two cores from nothing. With --all everything that has to pass, which
-# continuous integration runs: linters, the wheel, the sanitizers and a short fuzz run besides.
+# continuous integration runs: linters, the wheel, builds inside of other projects, the sanitizers
+# and a short fuzz run besides.
 # The last line counts tests and checks; the exit code is 0 where none failed.
 # usage: scripts/test.sh [--all]
 set -euo pipefail
@@ -99,7 +100,7 @@ if [[ $all == yes ]]; then
   check "ThreadSanitizer build, clang" build tsan
   check "C++ tests under ThreadSanitizer" ctest --preset tsan -j "$jobs"
 else
-  printf '\nLeft out, --all runs them: linters, the wheel, sanitizers, the fuzzers.\n'
+  printf '\nLeft out, --all runs them: linters, the wheel, other projects, sanitizers, the fuzzers.\n'
 fi
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
