@@ -84,33 +84,55 @@ fetched() {
   [[ $(find $build/prefix -type f -printf '%P') == lib/libparent_library.a ]]
 }
 
-# Shared, installed with the parent by its wish, with the importers, under two configurations; the
-# installation is moved before it is used.
+# A shared library with the importers, installed with the parent by its wish.
 shared() {
   local build=build/guest-shared
   configure $build -G Ninja -D BUILD_SHARED_LIBS=ON -D SOBB_INSTALL=ON -D SOBB_BUILD_SCENE=ON \
     -D SOBB_WERROR=ON
   build_and_run $build
-  rm -rf $build.moved
-  cmake --install $build --prefix $build/prefix
-  mv $build/prefix $build.moved
+  move_and_use $build
   [[ -f $build.moved/lib/libparent_library.so ]]
-  cmake -S tests/consumer -B $build/consumer -G Ninja -D CMAKE_PREFIX_PATH="$PWD/$build.moved"
-  cmake --build $build/consumer
-  (cd $build/consumer && ctest --output-on-failure --no-tests=error)
-  tests/consumer/pkg_config.sh cc "$PWD/$build.moved/lib" $build/pkg_config
 }
 
-# A parent of C alone, with Makefiles, without optimisation, in a folder with spaces in its name, from
-# sources that nobody may write to.
+# Static libraries of a build by themselves.
+static() {
+  local build=build/guest-static
+  rm -rf $build
+  cmake -S . -B $build -G Ninja -D BUILD_SHARED_LIBS=OFF -D SOBB_BUILD_TESTS=OFF \
+    -D SOBB_BUILD_BENCH=OFF -D SOBB_BUILD_EXAMPLES=OFF -D SOBB_WERROR=ON
+  cmake --build $build
+  use_package $build/consumer-here -D sobb_DIR="$PWD/$build"
+  move_and_use $build --static
+}
+
+# Installs a build, moves the installation, and uses it by CMake and by pkg-config.
+move_and_use() {
+  local build=$1
+  shift
+  rm -rf "$build.moved"
+  cmake --install "$build" --prefix "$build/prefix"
+  mv "$build/prefix" "$build.moved"
+  use_package "$build/consumer" -D CMAKE_PREFIX_PATH="$PWD/$build.moved"
+  tests/consumer/pkg_config.sh cc "$PWD/$build.moved/lib" "$build/pkg_config" "$@"
+}
+
+# use_package BUILD OPTION: builds the consumer of a package there, and runs it.
+use_package() {
+  cmake -S tests/consumer -B "$1" -G Ninja "${@:2}"
+  cmake --build "$1"
+  (cd "$1" && ctest --output-on-failure --no-tests=error)
+}
+
+# A parent of C alone, with Makefiles, without optimisation, in a folder with spaces in its name,
+# from sources that nobody may write to.
 c_alone() {
   local house="build/a guest's house" source
   [[ ! -e $house ]] || chmod -R u+w "$house"
   rm -rf "$house"
-  mkdir -p "$house/source"
   source="$PWD/$house/source"
-  git ls-files -z --cached --others --exclude-standard CMakeLists.txt capi cmake lib LICENSE \
-    THIRD_PARTY_NOTICES.md | tar --create --null --files-from=- | tar --extract --directory="$source"
+  mkdir -p "$source"
+  git ls-files -z --cached --others --exclude-standard CMakeLists.txt capi cmake lib |
+    tar --create --null --files-from=- | tar --extract --directory="$source"
   chmod -R a-w "$source"
   checksums "$source" >"$house/before"
   configure "$house/build" -G 'Unix Makefiles' -D PARENT_LANGUAGES=C -D CMAKE_BUILD_TYPE=Debug \
@@ -159,6 +181,7 @@ check "package in a build folder" build_tree
 expected=$(<build/guest-package.hashes)
 check "fetched, static" fetched
 check "shared, with importers, installed and moved" shared
+check "static by itself, in its build folder, installed and moved" static
 check "parent of C alone, Makefiles, Debug, spaces, sources read-only" c_alone
 check "core alone at top level" core_alone
 check "rough parent: fast arithmetic, link-time optimisation and more" rough
