@@ -56,7 +56,6 @@ configure() {
 # Builds a configured parent, runs its program, and compares what it prints with the other parents'.
 build_and_run() {
   cmake --build "$1" --parallel "$(nproc)"
-  (cd "$1" && ctest --output-on-failure --no-tests=error)
   "$1/parent" >"$1.hashes"
   [[ -z $expected ]] || diff <(echo "$expected") "$1.hashes"
 }
@@ -79,7 +78,7 @@ fetched() {
   configure $build -G Ninja -D PARENT_TAKES=fetch -D SOBB_WERROR=ON
   build_and_run $build
   [[ $(find $build -name '*.a' -printf '%f\n' | sort | xargs) == "libparent_library.a libsobb.a" ]]
-  [[ -z $(find $build/_deps/sobb-build -name 'CTestTestfile.cmake' -exec grep -l add_test {} +) ]]
+  [[ -z $(find $build -name CTestTestfile.cmake) ]]
   cmake --install $build --prefix $build/prefix
   [[ $(find $build/prefix -type f -printf '%P') == lib/libparent_library.a ]]
 }
