@@ -16,7 +16,7 @@ function(sobb_add_consumer_test name option)
 endfunction()
 
 sobb_add_consumer_test(build_tree -Dsobb_DIR=${PROJECT_BINARY_DIR})
-sobb_add_consumer_test(installed -DCMAKE_PREFIX_PATH=${prefix})
+sobb_add_consumer_test(find_package -DCMAKE_PREFIX_PATH=${prefix})
 add_test(NAME consumer.install COMMAND ${CMAKE_COMMAND}
   --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
 set(static)
@@ -27,4 +27,4 @@ add_test(NAME consumer.pkg_config COMMAND
   ${CMAKE_CURRENT_SOURCE_DIR}/consumer/pkg_config.sh ${CMAKE_C_COMPILER}
   ${prefix}/${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/pkg_config ${static})
 set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP consumer TIMEOUT 900)
-set_tests_properties(consumer.installed consumer.pkg_config PROPERTIES FIXTURES_REQUIRED consumer)
+set_tests_properties(consumer.find_package consumer.pkg_config PROPERTIES FIXTURES_REQUIRED consumer)
