@@ -19,7 +19,8 @@ esac
 
 jobs=$(nproc)
 log=$(mktemp)
-trap 'rm -f "$log"' EXIT
+beside_log=$(mktemp)
+trap 'rm -f "$log" "$beside_log"' EXIT
 passed=0
 failed=0
 
@@ -32,6 +33,25 @@ check() {
   "$@" 2>&1 | tee "$log" || result=FAILED
   count_tests "$result"
   echo "-- $name: $result, $((SECONDS - start)) s"
+}
+
+# beside NAME COMMAND...: starts a check that leaves cores idle. It runs beside the checks that follow,
+# until finish_beside prints it as check does.
+beside() {
+  beside_name=$1
+  shift
+  "$@" >"$beside_log" 2>&1 &
+}
+
+finish_beside() {
+  local status=0
+  wait $! || status=$?
+  check "$beside_name" replay "$status"
+}
+
+replay() {
+  cat "$beside_log"
+  return "$1"
 }
 
 # Reads the closing line of ctest ("..., 1 tests failed out of 9") or pytest ("1 failed, 8 passed").
@@ -52,6 +72,10 @@ count_tests() {
 
 build() {
   cmake --preset "$1" >/dev/null && cmake --build --preset "$1"
+}
+
+python_tests() {
+  .venv/bin/python -m pytest -q python/tests
 }
 
 format() {
@@ -85,22 +109,24 @@ fi
 check "release build, g++" scripts/setup.sh --tests --research
 use_ccache
 check "C++ tests" ctest --preset release -j "$jobs"
-check "Python tests" .venv/bin/python -m pytest -q python/tests
 check "clang-format" format
-if [[ $all == yes ]]; then
+if [[ $all == no ]]; then
+  check "Python tests" python_tests
+  printf '\nLeft out, --all runs them: linters, the wheel, other projects, sanitizers, the fuzzers.\n'
+else
   check "ruff" ruff
   check "mypy" types
   check "wheel" scripts/wheel_check.sh
   check "builds inside of other projects" scripts/guest_check.sh
+  beside "Python tests" python_tests
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
+  finish_beside
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
     ctest --preset asan -j "$jobs"
   check "short fuzz run" scripts/fuzz.sh 2
   check "ThreadSanitizer build, clang" build tsan
   check "C++ tests under ThreadSanitizer" ctest --preset tsan -j "$jobs"
-else
-  printf '\nLeft out, --all runs them: linters, the wheel, other projects, sanitizers, the fuzzers.\n'
 fi
 
 printf '\n%d passed, %d failed\n' "$passed" "$failed"

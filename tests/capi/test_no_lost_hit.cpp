@@ -11,6 +11,7 @@
 #include "capi/every_call.h"
 #include "capi/random_bases.h"
 #include "support/hostile_rays.h"
+#include "support/sanitized.h"
 
 namespace sobb::test {
 namespace {
@@ -46,12 +47,22 @@ std::vector<sobb_ray> cut_at_hits(std::vector<sobb_ray> rays, const std::vector<
   return rays;
 }
 
+// The families that hierarchy `index` of a soup is traced with. Under a sanitizer they are every
+// third, another third than of the hierarchy before, so that each family still meets every volume.
+std::vector<RayFamily> families(size_t index) {
+  if (!kSanitized) return {kRayFamilies.begin(), kRayFamilies.end()};
+  std::vector<RayFamily> third;
+  for (size_t i = index % 3; i < kRayFamilies.size(); i += 3) third.push_back(kRayFamilies[i]);
+  return third;
+}
+
 class NoLostHit : public testing::TestWithParam<Soup> {};
 
 TEST_P(NoLostHit, WhateverStrainsTheBounds) {
   const Soup& soup = GetParam();
   constexpr uint32_t kRays = 320;  // enough for batches
   uint64_t seed = 4100;
+  size_t hierarchies = 0;
   for (const uint32_t volume : {SOBB_VOLUME_AABB, SOBB_VOLUME_SOBB}) {
     for (const uint32_t quality : {SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
       for (const uint32_t width : {4U, 8U}) {
@@ -60,7 +71,7 @@ TEST_P(NoLostHit, WhateverStrainsTheBounds) {
         const HierarchyHandle hierarchy = build_soup(soup, options);
         ASSERT_TRUE(hierarchy);
         const auto normals = normals_of(hierarchy);
-        for (const RayFamily family : kRayFamilies) {
+        for (const RayFamily family : families(hierarchies++)) {
           ++seed;
           const std::string what = describe(soup, family, options, seed);
           const std::vector<sobb_ray> rays = hostile_rays(soup, family, normals, seed, kRays);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/sanitized.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -29,14 +30,6 @@ using Clock = std::chrono::steady_clock;
 constexpr int kThreads = 4;
 // What malloc, TBB and Embree keep for later may differ by so much.
 constexpr int64_t kSlack = int64_t{16} << 20;
-// A sanitizer keeps what was freed; AddressSanitizer tells of leaks by itself.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;
-#elif defined(__has_feature)
-constexpr bool kSanitized = __has_feature(address_sanitizer) || __has_feature(thread_sanitizer);
-#else
-constexpr bool kSanitized = false;
-#endif
 
 struct Totals {
   std::atomic<uint64_t> builds{0};
@@ -187,6 +180,7 @@ int soak(double minutes, uint64_t seed) {
               static_cast<double>(before) / (1 << 20), static_cast<double>(after) / (1 << 20));
   std::printf("held by the library at the start %" PRId64 " bytes, at the end %" PRId64 "\n",
               held_before, totals.held.load());
+  // A sanitizer keeps what was freed; AddressSanitizer tells of leaks by itself.
   const bool grew = !kSanitized && after > before + kSlack;
   if (grew) std::printf("memory has grown, by more than the slack of 16 MiB\n");
   return good && !grew && totals.held == 0 ? 0 : 1;
