@@ -2,7 +2,7 @@
 """A hierarchy: building, saving, opening and tracing it."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import byref, c_uint64, c_void_p
 from pickle import PickleBuffer
 from typing import Any, Literal, overload
@@ -215,6 +215,7 @@ def build(
     triangles: Any,
     faces: Any = None,
     *,
+    origin: Sequence[float] | None = None,
     volume: str = "sobb",
     k: int = 64,
     quality: str = "medium",
@@ -228,8 +229,10 @@ def build(
 ) -> Hierarchy:
     """Builds a hierarchy. The same input and options give the same bytes.
 
-    triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's; or vertices,
-        float32 (n, 3), with faces, uint32 (m, 3).
+    triangles: a Scene; a mesh with `vertices` and `faces`, such as trimesh's, or a trimesh.Scene;
+        or vertices, (n, 3), with faces, (m, 3). float32 and uint32 arrays are not copied.
+    origin: a point that is subtracted from the vertices in float64, before they are rounded to
+        float32: for large coordinates such as UTM's. Rays and hits are relative to it.
     volume: "sobb" or "aabb".
     k: planes of the k-DOP that SOBBs are chosen from, 32, 48 or 64.
     quality: "low", "medium" or "high".
@@ -240,10 +243,11 @@ def build(
     threads: how many threads build at most; 0 for all.
     isa: the instruction set, as in intersect(); it changes only the speed.
     memory_limit: bytes that the build may hold; 0 for none.
-    progress: called from time to time, on another thread, with the fraction done, 0 to 1. What it
-        raises cancels the build and is raised here. So is the KeyboardInterrupt of Ctrl-C.
+    progress: called from time to time, on any thread but never on two at once, with the fraction
+        done, 0 to 1. What it raises cancels the build and is raised here. So is the
+        KeyboardInterrupt of Ctrl-C.
     """
-    argument = TriangleArgument(triangles, faces)
+    argument = TriangleArgument(triangles, faces, origin)
     options = structs.BuildOptions(
         volume=number_of("volume", VOLUMES, volume),
         k=unsigned("k", k),

@@ -9,7 +9,7 @@ lie in bin beside that lib. The first call that needs a library loads it.
 
 import ctypes
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from ctypes import POINTER, c_char_p, c_int, c_uint32, c_uint64, c_void_p
 from functools import cache
 from operator import index
@@ -191,6 +191,14 @@ def unsigned(name: str, value: int, bits: int = 32) -> int:
     if not 0 <= number < 1 << bits:
         raise ValueError(f"{name} is {number}: not from 0 to 2^{bits} - 1")
     return number
+
+
+def point(origin: Sequence[float]) -> np.ndarray:
+    """Returns an argument `origin` as float64 (3,)."""
+    values = np.asarray(origin, np.float64)
+    if values.shape != (3,) or not np.isfinite(values).all():
+        raise ValueError(f"origin is {origin!r}: not three finite numbers")
+    return values
 
 
 def number_of(what: str, names: Mapping[str, int], name: str) -> int:

@@ -245,19 +245,6 @@ def test_wrong_places_for_results(hierarchy, rays):
             hierarchy.intersect(given, out=out)
 
 
-def test_meshes_of_others(mesh, rays):
-    class Mesh:  # as trimesh has it
-        vertices = np.asarray(mesh[0], np.float64)
-        faces = np.asarray(mesh[1], np.int64)
-
-    assert sobb.build(Mesh()).bytes == sobb.build(*mesh).bytes
-    np.testing.assert_array_equal(
-        sobb.brute_force(Mesh(), rays), sobb.brute_force(mesh[0], rays, mesh[1])
-    )
-    with pytest.raises(TypeError, match="own faces"):
-        sobb.build(Mesh(), mesh[1])
-
-
 def test_progress_rises_to_the_end(mesh):
     heard = []
     sobb.build(*mesh, progress=heard.append)
