@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/tbb_threads.h"
 
+#include <dlfcn.h>
 #include <oneapi/tbb/cache_aligned_allocator.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -14,6 +15,23 @@
 
 namespace sobb {
 namespace {
+
+// Keeps the shared object that has this code, and so TBB below it, in the process for good. TBB's
+// workers live on when a loop has ended, and run TBB's code, for a moment also the end of a loop's:
+// a host that unloaded the last user of TBB would take the code from under them. They cannot be
+// waited for, since the host may use TBB as well, and in the child of a fork there are none.
+void stay_loaded() {
+  static const char here = 0;
+  static const bool asked = [] {
+    Dl_info object;
+    // There is no handle for a program itself, which nobody unloads.
+    if (dladdr(&here, &object) != 0 && object.dli_fname != nullptr) {
+      dlopen(object.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+    }
+    return true;
+  }();
+  static_cast<void>(asked);
+}
 
 struct Arena {
   explicit Arena(int threads) : size(threads), arena(threads) {}
@@ -75,6 +93,7 @@ class BorrowedArena {
 
 template <class Body>
 void within_arena(uint32_t threads, const Body& body) {
+  if (threads != 1) stay_loaded();
   if (threads == 0) {
     body();
     return;
