@@ -10,8 +10,7 @@ namespace {
 
 void open_file(benchmark::State& state, Workbench& workbench, uint32_t open_flags) {
   const std::string path = workbench.saved_file().string();
-  sobb_open_options options{};
-  options.struct_size = sizeof options;
+  sobb_open_options options = SOBB_OPEN_OPTIONS_INIT;
   options.flags = open_flags;
   options.threads = workbench.flags().threads;
   const Stopwatch clock(options.threads);

@@ -9,17 +9,14 @@
 namespace sobb::bench {
 
 SceneInput::SceneInput(const std::string& source, const std::string& cameras, uint64_t view) {
-  sobb_scene_options options{};
-  options.struct_size = sizeof options;
+  sobb_scene_options options = SOBB_SCENE_OPTIONS_INIT;
   options.views_path = cameras.empty() ? nullptr : cameras.c_str();
   sobb_scene* scene = nullptr;
   check(sobb_scene_load(source.c_str(), &options, &scene));
   scene_.reset(scene, sobb_scene_release);
 
-  info_.struct_size = sizeof info_;
   check(sobb_scene_get_info(scene, &info_));
   check(sobb_scene_view(scene, view, &view_));
-  triangles_.struct_size = sizeof triangles_;
   check(sobb_scene_triangles(scene, &triangles_));
 
   // Embree reads 16 bytes at every vertex, so the last one needs four more behind it.

@@ -24,8 +24,8 @@ class SceneInput {
  private:
   std::shared_ptr<sobb_scene> scene_;
   std::vector<float> vertices_;
-  sobb_triangles triangles_{};
-  sobb_scene_info info_{};
+  sobb_triangles triangles_ = SOBB_TRIANGLES_INIT;
+  sobb_scene_info info_ = SOBB_SCENE_INFO_INIT;
   sobb_view view_{};
 };
 

@@ -12,8 +12,7 @@ namespace sobb::bench {
 SobbSubject::SobbSubject(const SceneInput& scene, Method method, const Flags& flags,
                          uint32_t build_threads)
     : method_(method), threads_(flags.threads), clock_(flags.threads) {
-  sobb_build_options options{};
-  options.struct_size = sizeof options;
+  sobb_build_options options = SOBB_BUILD_OPTIONS_INIT;
   options.volume = is_aabb(method) ? SOBB_VOLUME_AABB : SOBB_VOLUME_SOBB;
   options.k = flags.k;
   options.quality = is_high(method) ? uint32_t{SOBB_QUALITY_HIGH} : flags.quality;
@@ -28,8 +27,7 @@ SobbSubject::SobbSubject(const SceneInput& scene, Method method, const Flags& fl
 }
 
 sobb_info SobbSubject::info() const {
-  sobb_info info{};
-  info.struct_size = sizeof info;
+  sobb_info info = SOBB_INFO_INIT;
   check(sobb_get_info(hierarchy_.get(), &info));
   return info;
 }
@@ -82,8 +80,7 @@ void SobbSubject::trace_packet(const RaySet& set, Workers& workers, TraceOutput&
 }
 
 void SobbSubject::trace_array(const RaySet& set, TraceOutput& output) const {
-  sobb_trace_options options{};
-  options.struct_size = sizeof options;
+  sobb_trace_options options = SOBB_TRACE_OPTIONS_INIT;
   options.flags = set.coherent() ? SOBB_TRACE_COHERENT : 0;
   options.threads = threads_;
   const uint64_t count = set.rays.size();
@@ -97,8 +94,7 @@ WorkPerRay SobbSubject::count_work(const RaySet& set) const {
   TraceOutput output;
   output.resize(set);
   std::vector<sobb_count> counts(set.rays.size());
-  sobb_trace_options options{};
-  options.struct_size = sizeof options;
+  sobb_trace_options options = SOBB_TRACE_OPTIONS_INIT;
   options.threads = threads_;
   options.counts = counts.data();
   check(set.any_hit() ? sobb_occluded(hierarchy_.get(), set.rays.data(), counts.size(),

@@ -8,7 +8,7 @@ string(REGEX REPLACE "/\\*[^*]*\\*/" "" text "${text}")
 string(REGEX MATCHALL "sobb_[a-z0-9_]+" listed "${text}")
 
 file(READ ${HEADER} text)
-string(REGEX MATCHALL "SOBB_API [a-z0-9_ *]+[ *]sobb_[a-z0-9_]+\\(" declarations "${text}")
+string(REGEX MATCHALL "SOBB_(SCENE_)?API [a-z0-9_ *]+[ *]sobb_[a-z0-9_]+\\(" declarations "${text}")
 set(declared)
 foreach(declaration IN LISTS declarations)
   string(REGEX REPLACE ".*[ *](sobb_[a-z0-9_]+)\\($" "\\1" name "${declaration}")

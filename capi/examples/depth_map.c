@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   const char* source = argc > 1 ? argv[1] : "builtin:hairball:20000";
   sobb_scene* scene = NULL;
   sobb_hierarchy* hierarchy = NULL;
-  sobb_triangles triangles = {sizeof triangles, 0, NULL, 0, 0, NULL, 0};
+  sobb_triangles triangles = SOBB_TRIANGLES_INIT;
   sobb_view view;
 
   sobb_status status = sobb_scene_load(source, NULL, &scene);

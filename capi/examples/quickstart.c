@@ -7,7 +7,11 @@ static const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t indices[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
 static int run(const char* path) {
-  sobb_triangles triangles = {sizeof triangles, 0, vertices, 4, 0, indices, 4};
+  sobb_triangles triangles = SOBB_TRIANGLES_INIT;
+  triangles.vertices = vertices;
+  triangles.vertex_count = 4;
+  triangles.indices = indices;
+  triangles.triangle_count = 4;
   sobb_hierarchy* built = NULL;
   sobb_status status = sobb_build(&triangles, NULL, &built);
   if (status == SOBB_OK) status = sobb_save(built, path);

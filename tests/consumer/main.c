@@ -46,12 +46,8 @@ static sobb_status run(const char* path) {
   sobb_hierarchy* built = NULL;
   sobb_hierarchy* opened = NULL;
   sobb_view view;
-  sobb_triangles triangles;
-  sobb_build_options options;
-  memset(&triangles, 0, sizeof triangles);
-  memset(&options, 0, sizeof options);
-  triangles.struct_size = sizeof triangles;
-  options.struct_size = sizeof options;
+  sobb_triangles triangles = SOBB_TRIANGLES_INIT;
+  sobb_build_options options = SOBB_BUILD_OPTIONS_INIT;
   options.threads = 2;
 
   sobb_status status = sobb_scene_load("builtin:pipes:2000", NULL, &scene);

@@ -58,8 +58,7 @@ uint64_t expect_brute_force(const std::string& method, const RayGroup& group,
     rays[i] = group.rays[places[i]];
   }
   std::vector<sobb_hit> expected(count), hits(count);
-  sobb_trace_options options{};
-  options.struct_size = sizeof options;
+  sobb_trace_options options = SOBB_TRACE_OPTIONS_INIT;
   options.threads = threads;
   check(sobb_brute_force(&triangles, rays.data(), count, expected.data(), &options));
   for (size_t i = 0; i < count; ++i) hits[i] = group.hits[places[i]];

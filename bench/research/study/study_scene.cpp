@@ -26,7 +26,6 @@ StudyScene::StudyScene(const std::string& source, const StudyOptions& options)
   sobb_scene* scene = nullptr;
   check(sobb_scene_load(source.c_str(), nullptr, &scene));
   scene_.reset(scene, sobb_scene_release);
-  triangles_.struct_size = sizeof triangles_;
   check(sobb_scene_triangles(scene, &triangles_));
   mesh_ = std::make_unique<Mesh>(triangles_, scheduler_);
   summary_ = summarise(*mesh_, scheduler_, *memory_);
@@ -49,8 +48,7 @@ std::vector<sobb_ray> StudyScene::primary_rays(uint32_t size) const {
 }
 
 std::vector<sobb_ray> StudyScene::secondary_rays(uint32_t size) const {
-  sobb_scene_info info{};
-  info.struct_size = sizeof info;
+  sobb_scene_info info = SOBB_SCENE_INFO_INIT;
   check(sobb_scene_get_info(scene_.get(), &info));
 
   sobb_hierarchy* built = nullptr;

@@ -46,7 +46,7 @@ class StudyScene {
   Scheduler scheduler_;
   std::shared_ptr<Memory> memory_;
   std::shared_ptr<sobb_scene> scene_;
-  sobb_triangles triangles_{};
+  sobb_triangles triangles_ = SOBB_TRIANGLES_INIT;
   std::unique_ptr<Mesh> mesh_;
   MeshSummary summary_{};
 };

@@ -38,6 +38,15 @@
 extern "C" {
 #endif
 
+/* SOBB_SCENE_API is SOBB_API for the importers, whose own build defines SOBB_SCENE_EXPORTS. */
+#if !defined(_WIN32) || defined(SOBB_STATIC)
+#define SOBB_SCENE_API SOBB_API
+#elif defined(SOBB_SCENE_EXPORTS)
+#define SOBB_SCENE_API __declspec(dllexport)
+#else
+#define SOBB_SCENE_API __declspec(dllimport)
+#endif
+
 typedef struct sobb_scene sobb_scene; /**< immutable, reference-counted */
 
 /** A pinhole view. */
@@ -78,6 +87,8 @@ typedef struct sobb_scene_options {
   int (*progress)(void* user, double fraction);
   void* progress_user;
 } sobb_scene_options;
+#define SOBB_SCENE_OPTIONS_INIT \
+  { sizeof(sobb_scene_options), 0, NULL, 0, NULL, NULL }
 
 /** What a scene is; filled by sobb_scene_get_info(). */
 typedef struct sobb_scene_info {
@@ -92,6 +103,10 @@ typedef struct sobb_scene_info {
   float bounds_max[3];
   uint64_t note_count; /**< notes on what was passed over, at most one per cause */
 } sobb_scene_info;
+#define SOBB_SCENE_INFO_INIT                                          \
+  {                                                                   \
+    sizeof(sobb_scene_info), 0, 0, 0, 0, 0, 0, {0, 0, 0}, { 0, 0, 0 } \
+  }
 
 /** Why a part of a scene's source was passed over. Values are never reused. */
 typedef enum sobb_note_cause {
@@ -126,16 +141,18 @@ typedef struct sobb_scene_note {
  * glTF, else one default: from the box's centre c with half diagonal h, the eye at
  * c + 2.2 h (0.48, 0.36, 0.8), looking at c, up y, vfov 50 degrees.
  */
-SOBB_API sobb_status sobb_scene_load(const char* source, const sobb_scene_options* options,
-                                     sobb_scene** out);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_load(const char* source,
+                                                          const sobb_scene_options* options,
+                                                          sobb_scene** out);
 
 /** Adds a reference. NULL is allowed. Returns its argument. */
-SOBB_API sobb_scene* sobb_scene_retain(sobb_scene* scene);
+SOBB_SCENE_API sobb_scene* sobb_scene_retain(sobb_scene* scene);
 /** Drops a reference; the last frees the scene. NULL is allowed. */
-SOBB_API void sobb_scene_release(sobb_scene* scene);
+SOBB_SCENE_API void sobb_scene_release(sobb_scene* scene);
 
 /** Fills @p info up to its struct_size. */
-SOBB_API sobb_status sobb_scene_get_info(const sobb_scene* scene, sobb_scene_info* info);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_get_info(const sobb_scene* scene,
+                                                              sobb_scene_info* info);
 
 /**
  * Fills @p note with note @p index (below note_count) up to its struct_size. Notes are in order of
@@ -148,13 +165,16 @@ SOBB_API sobb_status sobb_scene_get_note(const sobb_scene* scene, uint64_t index
 SOBB_API const char* sobb_note_cause_name(uint32_t cause);
 
 /** The scene's triangles, ready for sobb_build(); the arrays live as long as the scene. */
-SOBB_API sobb_status sobb_scene_triangles(const sobb_scene* scene, sobb_triangles* triangles);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_triangles(const sobb_scene* scene,
+                                                               sobb_triangles* triangles);
 
 /** Mesh @p index; SOBB_ERROR_INVALID_ARGUMENT beyond mesh_count. Ranges are in order, disjoint. */
-SOBB_API sobb_status sobb_scene_mesh(const sobb_scene* scene, uint64_t index, sobb_mesh* mesh);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_mesh(const sobb_scene* scene, uint64_t index,
+                                                          sobb_mesh* mesh);
 
 /** View @p index; SOBB_ERROR_INVALID_ARGUMENT beyond view_count. */
-SOBB_API sobb_status sobb_scene_view(const sobb_scene* scene, uint64_t index, sobb_view* view);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_view(const sobb_scene* scene, uint64_t index,
+                                                          sobb_view* view);
 
 #ifdef __cplusplus
 } /* extern "C" */

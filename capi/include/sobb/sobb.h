@@ -6,22 +6,28 @@
  * Build a hierarchy over triangles, save it to one compact file, open that file, trace rays through
  * it. Plain C99: opaque handles, fixed-width types, a status from every call, no globals to set up.
  *
- *     sobb_triangles mesh = {sizeof mesh, 0, vertices, vertex_count, 12, indices, triangle_count};
+ *     sobb_triangles mesh = SOBB_TRIANGLES_INIT;
  *     sobb_hierarchy* hierarchy = NULL;
+ *     mesh.vertices = vertices;  mesh.vertex_count = vertex_count;
+ *     mesh.indices = indices;    mesh.triangle_count = triangle_count;
  *     if (sobb_build(&mesh, NULL, &hierarchy) != SOBB_OK) { puts(sobb_last_error()); return 1; }
  *     sobb_intersect(hierarchy, rays, ray_count, hits, NULL);
  *     sobb_release(hierarchy);
  *
- * **Structs that grow.** Option and information structs begin with `struct_size`: set it to
- * `sizeof` the struct. A member counts when that size covers it; members beyond it take their
- * default. In option structs zero means the default, so `{sizeof options}` is a complete set, and
- * a NULL pointer to options means all defaults. A `struct_size` too small for the first member, or
- * larger than this library knows with a non-zero byte in the unknown part, is
- * SOBB_ERROR_INVALID_ARGUMENT.
+ * **Structs that grow.** Option and information structs begin with `struct_size`, the size of the
+ * struct. Each has an initialiser that sets it and leaves the rest zero:
+ *
+ *     sobb_build_options options = SOBB_BUILD_OPTIONS_INIT;
+ *
+ * A member counts when `struct_size` covers it; members beyond it take their default. In option
+ * structs zero means the default, and a NULL pointer to options means all defaults. A `struct_size`
+ * too small for the first member, or larger than this library knows with a non-zero byte in the
+ * unknown part, is SOBB_ERROR_INVALID_ARGUMENT.
  *
  * **Errors.** Every call that can fail returns a sobb_status; sobb_last_error() has the message of
  * the calling thread's last failed call. On failure outputs are untouched unless a function says
- * otherwise. No exception, `exit` or `abort` crosses this interface.
+ * otherwise. No exception, `exit` or `abort` crosses this interface. Compilers that can warn where
+ * a status is ignored do so; a cast to void says that it is meant.
  *
  * **Threads.** All functions may be called from any thread at any time. A hierarchy is immutable:
  * any number of threads may trace, save and query one at once. Calls restore the floating-point
@@ -40,10 +46,38 @@
 extern "C" {
 #endif
 
-#if defined(_WIN32)
-#define SOBB_API
-#else
+/*
+ * SOBB_API marks the functions that the library exports and its users import. Windows tells the two
+ * apart: the library's own build defines SOBB_EXPORTS, and a program that links the static library
+ * defines SOBB_STATIC, as the CMake package does for it.
+ */
+#if !defined(_WIN32)
 #define SOBB_API __attribute__((visibility("default")))
+#elif defined(SOBB_STATIC)
+#define SOBB_API
+#elif defined(SOBB_EXPORTS)
+#define SOBB_API __declspec(dllexport)
+#else
+#define SOBB_API __declspec(dllimport)
+#endif
+
+/*
+ * SOBB_NODISCARD marks the functions whose status must not be ignored. GCC's own attribute warns of
+ * a cast to void as well, so GCC gets the standard one, which it knows in every version of C and
+ * C++.
+ */
+#if defined(__cplusplus) && __cplusplus >= 201703L
+#define SOBB_NODISCARD [[nodiscard]]
+#elif defined(_MSVC_LANG) && _MSVC_LANG >= 201703L
+#define SOBB_NODISCARD [[nodiscard]]
+#elif defined(__clang__)
+#define SOBB_NODISCARD __attribute__((warn_unused_result))
+#elif defined(__GNUC__) && __GNUC__ >= 10
+#define SOBB_NODISCARD __extension__ [[nodiscard]]
+#elif defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L
+#define SOBB_NODISCARD [[nodiscard]]
+#else
+#define SOBB_NODISCARD
 #endif
 
 /** Semantic version of this header; sobb_version() is that of the library that was linked. */
@@ -145,7 +179,7 @@ SOBB_API const char* sobb_isa_title(uint32_t isa);
  * @param out the value; it is not resolved, and this processor may lack the set.
  * @return SOBB_ERROR_INVALID_ARGUMENT for any other name; the message lists the names. Thread-safe.
  */
-SOBB_API sobb_status sobb_isa_from_name(const char* name, sobb_isa* out);
+SOBB_NODISCARD SOBB_API sobb_status sobb_isa_from_name(const char* name, sobb_isa* out);
 
 /**
  * Resolves SOBB_ISA_BEST (or checks another) on this processor.
@@ -154,7 +188,7 @@ SOBB_API sobb_status sobb_isa_from_name(const char* name, sobb_isa* out);
  * @return SOBB_ERROR_UNSUPPORTED_CPU, or SOBB_ERROR_INVALID_ARGUMENT for an unknown value (of the
  *         environment's variable too). Thread-safe, O(1).
  */
-SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out);
+SOBB_NODISCARD SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out);
 
 /**
  * The caller's allocator. Every allocation of the library on behalf of a call that was given one
@@ -200,6 +234,8 @@ typedef struct sobb_triangles {
   const uint32_t* indices; /**< three per triangle, tightly packed */
   uint64_t triangle_count; /**< 1 to SOBB_MAX_TRIANGLES */
 } sobb_triangles;
+#define SOBB_TRIANGLES_INIT \
+  { sizeof(sobb_triangles), 0, NULL, 0, 0, NULL, 0 }
 
 /* ------------------------------------------------------------------------------- build -- */
 
@@ -263,6 +299,8 @@ typedef struct sobb_build_options {
   uint32_t table;    /**< a sobb_table */
   uint32_t reserved; /**< zero */
 } sobb_build_options;
+#define SOBB_BUILD_OPTIONS_INIT \
+  { sizeof(sobb_build_options), 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL, 0, 0 }
 
 /**
  * Builds a hierarchy over triangles; the input may be freed afterwards.
@@ -277,8 +315,9 @@ typedef struct sobb_build_options {
  *         _UNSUPPORTED_CPU, _INTERNAL.
  * Cost: O(n log n); about 60 bytes per triangle are kept, see docs/c-api.md for the peak.
  */
-SOBB_API sobb_status sobb_build(const sobb_triangles* triangles, const sobb_build_options* options,
-                                sobb_hierarchy** out);
+SOBB_NODISCARD SOBB_API sobb_status sobb_build(const sobb_triangles* triangles,
+                                               const sobb_build_options* options,
+                                               sobb_hierarchy** out);
 
 /** Adds a reference. NULL is allowed. Returns its argument. */
 SOBB_API sobb_hierarchy* sobb_retain(sobb_hierarchy* hierarchy);
@@ -311,6 +350,8 @@ typedef struct sobb_open_options {
   int (*progress)(void* user, double fraction);
   void* progress_user;
 } sobb_open_options;
+#define SOBB_OPEN_OPTIONS_INIT \
+  { sizeof(sobb_open_options), 0, 0, 0, 0, NULL, NULL, NULL, NULL }
 
 /**
  * Writes the hierarchy to a file (docs/format.md), atomically: to a temporary name beside it,
@@ -318,7 +359,7 @@ typedef struct sobb_open_options {
  * that is killed may leave its temporary, `.sobb-N.tmp`; the next save in that folder removes it.
  * @return SOBB_ERROR_FILE_WRITE with the path and the system's reason; SOBB_ERROR_OUT_OF_MEMORY.
  */
-SOBB_API sobb_status sobb_save(const sobb_hierarchy* hierarchy, const char* path);
+SOBB_NODISCARD SOBB_API sobb_status sobb_save(const sobb_hierarchy* hierarchy, const char* path);
 
 /**
  * Opens a file and proves it safe to trace: sizes, checksums, every reference, slab and triangle.
@@ -327,18 +368,20 @@ SOBB_API sobb_status sobb_save(const sobb_hierarchy* hierarchy, const char* path
  *         _CANCELLED.
  * Cost: reads the file once; O(size) in time, and its size in memory (none to speak of if mapped).
  */
-SOBB_API sobb_status sobb_open(const char* path, const sobb_open_options* options,
-                               sobb_hierarchy** out);
+SOBB_NODISCARD SOBB_API sobb_status sobb_open(const char* path, const sobb_open_options* options,
+                                              sobb_hierarchy** out);
 
 /** The same from memory, which is copied; SOBB_OPEN_MAP is SOBB_ERROR_INVALID_ARGUMENT here. */
-SOBB_API sobb_status sobb_open_memory(const void* data, uint64_t size,
-                                      const sobb_open_options* options, sobb_hierarchy** out);
+SOBB_NODISCARD SOBB_API sobb_status sobb_open_memory(const void* data, uint64_t size,
+                                                     const sobb_open_options* options,
+                                                     sobb_hierarchy** out);
 
 /**
  * The bytes that sobb_save() writes, where they lie: owned by the hierarchy, valid while it lives.
  * Cost: O(1), nothing is copied.
  */
-SOBB_API sobb_status sobb_bytes(const sobb_hierarchy* hierarchy, const void** data, uint64_t* size);
+SOBB_NODISCARD SOBB_API sobb_status sobb_bytes(const sobb_hierarchy* hierarchy, const void** data,
+                                               uint64_t* size);
 
 /** What a hierarchy is; filled by sobb_get_info(). Sums over nodes are made at the call. */
 typedef struct sobb_info {
@@ -376,9 +419,14 @@ typedef struct sobb_info {
   uint32_t table;      /**< SOBB_TABLE_SPREAD for the library's own directions, else _FITTED */
   uint32_t reserved;   /**< zero */
 } sobb_info;
+#define SOBB_INFO_INIT                                                                        \
+  {                                                                                           \
+    sizeof(sobb_info), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, {0, 0, 0}, \
+        {0, 0, 0}, 0, 0, 0, 0, 0, 0, 0, 0, 0                                                  \
+  }
 
 /** Fills @p info up to its struct_size. Thread-safe. Cost: O(nodes). */
-SOBB_API sobb_status sobb_get_info(const sobb_hierarchy* hierarchy, sobb_info* info);
+SOBB_NODISCARD SOBB_API sobb_status sobb_get_info(const sobb_hierarchy* hierarchy, sobb_info* info);
 
 /* ------------------------------------------------------------------------------- trace -- */
 
@@ -434,6 +482,8 @@ typedef struct sobb_trace_options {
   uint64_t* invalid_rays;          /**< receives how many rays were SOBB_INVALID, or NULL */
   const sobb_scheduler* scheduler; /**< NULL for TBB */
 } sobb_trace_options;
+#define SOBB_TRACE_OPTIONS_INIT \
+  { sizeof(sobb_trace_options), 0, 0, 0, NULL, NULL, NULL }
 
 /** Value of an occlusion byte. */
 enum { SOBB_FREE = 0, SOBB_OCCLUDED = 1, SOBB_OCCLUDED_INVALID = 255 };
@@ -449,37 +499,41 @@ enum { SOBB_FREE = 0, SOBB_OCCLUDED = 1, SOBB_OCCLUDED_INVALID = 255 };
  * allocator while the call runs. Without that memory, and in all other cases, rays are traced one
  * by one, or 64 at a time with SOBB_TRACE_COHERENT, to the same hits. Cost: about O(log n) per ray.
  */
-SOBB_API sobb_status sobb_intersect(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
-                                    uint64_t count, sobb_hit* hits,
-                                    const sobb_trace_options* options);
+SOBB_NODISCARD SOBB_API sobb_status sobb_intersect(const sobb_hierarchy* hierarchy,
+                                                   const sobb_ray* rays, uint64_t count,
+                                                   sobb_hit* hits,
+                                                   const sobb_trace_options* options);
 
 /**
  * Any hit: whether each ray meets a triangle in its interval. Cheaper than the closest.
  * @param occluded @p count bytes: SOBB_FREE, SOBB_OCCLUDED or SOBB_OCCLUDED_INVALID.
  */
-SOBB_API sobb_status sobb_occluded(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
-                                   uint64_t count, uint8_t* occluded,
-                                   const sobb_trace_options* options);
+SOBB_NODISCARD SOBB_API sobb_status sobb_occluded(const sobb_hierarchy* hierarchy,
+                                                  const sobb_ray* rays, uint64_t count,
+                                                  uint8_t* occluded,
+                                                  const sobb_trace_options* options);
 
 /** The closest hit of one ray, with the best instruction set, on the calling thread. */
-SOBB_API sobb_status sobb_intersect1(const sobb_hierarchy* hierarchy, const sobb_ray* ray,
-                                     sobb_hit* hit);
+SOBB_NODISCARD SOBB_API sobb_status sobb_intersect1(const sobb_hierarchy* hierarchy,
+                                                    const sobb_ray* ray, sobb_hit* hit);
 
 /** Tells whether one ray is occluded (a byte as above). */
-SOBB_API sobb_status sobb_occluded1(const sobb_hierarchy* hierarchy, const sobb_ray* ray,
-                                    uint8_t* occluded);
+SOBB_NODISCARD SOBB_API sobb_status sobb_occluded1(const sobb_hierarchy* hierarchy,
+                                                   const sobb_ray* ray, uint8_t* occluded);
 
 /**
  * The closest hits of a packet: up to 16 rays traced together, best when they are alike.
  * @param rays 16 rays, or as many as the highest bit of @p mask asks for.
  * @param mask bit i set: ray i is traced and hit i written; others are not touched.
  */
-SOBB_API sobb_status sobb_intersect_packet(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
-                                           uint32_t mask, sobb_hit* hits);
+SOBB_NODISCARD SOBB_API sobb_status sobb_intersect_packet(const sobb_hierarchy* hierarchy,
+                                                          const sobb_ray* rays, uint32_t mask,
+                                                          sobb_hit* hits);
 
 /** Any hit of a packet; byte i is written where bit i of @p mask is set. */
-SOBB_API sobb_status sobb_occluded_packet(const sobb_hierarchy* hierarchy, const sobb_ray* rays,
-                                          uint32_t mask, uint8_t* occluded);
+SOBB_NODISCARD SOBB_API sobb_status sobb_occluded_packet(const sobb_hierarchy* hierarchy,
+                                                         const sobb_ray* rays, uint32_t mask,
+                                                         uint8_t* occluded);
 
 /**
  * The oracle: closest hits by trying every triangle, in scalar code, without any hierarchy. Right
@@ -487,9 +541,10 @@ SOBB_API sobb_status sobb_occluded_packet(const sobb_hierarchy* hierarchy, const
  * @param options `threads` and `scheduler` count. May be NULL.
  * @return as sobb_build() for bad triangles, as sobb_intersect() for the rest.
  */
-SOBB_API sobb_status sobb_brute_force(const sobb_triangles* triangles, const sobb_ray* rays,
-                                      uint64_t count, sobb_hit* hits,
-                                      const sobb_trace_options* options);
+SOBB_NODISCARD SOBB_API sobb_status sobb_brute_force(const sobb_triangles* triangles,
+                                                     const sobb_ray* rays, uint64_t count,
+                                                     sobb_hit* hits,
+                                                     const sobb_trace_options* options);
 
 #ifdef __cplusplus
 } /* extern "C" */

@@ -38,16 +38,14 @@ Json measure_width(StudyScene& scene, const Topology& topology, uint32_t width,
 // Nanoseconds that the library's kernel takes on one thread, on average per node or block of a
 // leaf.
 Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>& rays) {
-  sobb_build_options options{};
-  options.struct_size = sizeof options;
+  sobb_build_options options = SOBB_BUILD_OPTIONS_INIT;
   options.width = width;
   sobb_hierarchy* built = nullptr;
   bench::check(sobb_build(&scene.triangles(), &options, &built));
   const std::shared_ptr<sobb_hierarchy> hierarchy(built, sobb_release);
   std::vector<sobb_hit> hits(rays.size());
   std::vector<sobb_count> counts(rays.size());
-  sobb_trace_options trace{};
-  trace.struct_size = sizeof trace;
+  sobb_trace_options trace = SOBB_TRACE_OPTIONS_INIT;
   trace.counts = counts.data();
   sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace);
   double steps = 0;

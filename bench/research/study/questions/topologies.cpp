@@ -30,8 +30,7 @@ using Rays = std::vector<sobb_ray>;
 
 void trace(sobb_hierarchy* hierarchy, const Rays& rays, Hits& hits, sobb_count* counts) {
   hits.resize(rays.size());
-  sobb_trace_options options{};
-  options.struct_size = sizeof options;
+  sobb_trace_options options = SOBB_TRACE_OPTIONS_INIT;
   options.threads = 1;
   options.counts = counts;
   check(sobb_intersect(hierarchy, rays.data(), rays.size(), hits.data(), &options));
@@ -87,8 +86,7 @@ Entry make_entry(StudyScene& scene, const Variant& variant) {
   Entry entry;
   entry.hierarchy = make_hierarchy(scene.mesh(), scene.summary(), layout, binary ? 4 : 8);
   entry.timed = !binary;  // binary nodes lie in ones made for four children
-  sobb_info info{};
-  info.struct_size = sizeof info;
+  sobb_info info = SOBB_INFO_INIT;
   check(sobb_get_info(entry.hierarchy.get(), &info));
   entry.row = {{"layout", binary ? "binary" : "wide"},
                {"splits", variant.splits},

@@ -104,13 +104,11 @@ const Method& method(std::string_view name) {
 TEST(VolumeAreas, OfAabbsAreThoseOfAFile) {
   const Soup soup = test::random_soup(31, 5000);
   const sobb_triangles triangles = soup.view();
-  sobb_build_options options{};
-  options.struct_size = sizeof options;
+  sobb_build_options options = SOBB_BUILD_OPTIONS_INIT;
   options.volume = SOBB_VOLUME_AABB;
   sobb_hierarchy* built = nullptr;
   ASSERT_EQ(sobb_build(&triangles, &options, &built), SOBB_OK);
-  sobb_info info{};
-  info.struct_size = sizeof info;
+  sobb_info info = SOBB_INFO_INIT;
   ASSERT_EQ(sobb_get_info(built, &info), SOBB_OK);
   sobb_release(built);
 
