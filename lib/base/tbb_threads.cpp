@@ -6,8 +6,10 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <list>
 #include <mutex>
@@ -16,21 +18,30 @@
 namespace sobb {
 namespace {
 
+// Set in the child of a fork whose parent had started workers. The child has none of them, and one
+// may have held a lock of TBB's, so the child runs its loops on the calling thread.
+std::atomic<bool> workers_are_gone{false};
+
 // Keeps the shared object that has this code, and so TBB below it, in the process for good. TBB's
 // workers live on when a loop has ended, and run TBB's code, for a moment also the end of a loop's:
 // a host that unloaded the last user of TBB would take the code from under them. They cannot be
-// waited for, since the host may use TBB as well, and in the child of a fork there are none.
+// waited for, since the host may use TBB as well.
 void stay_loaded() {
   static const char here = 0;
-  static const bool asked = [] {
-    Dl_info object;
-    // There is no handle for a program itself, which nobody unloads.
-    if (dladdr(&here, &object) != 0 && object.dli_fname != nullptr) {
-      dlopen(object.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-    }
-    return true;
-  }();
-  static_cast<void>(asked);
+  Dl_info object;
+  // A program itself is not found by its name, and nobody unloads it.
+  if (dladdr(&here, &object) != 0 && object.dli_fname != nullptr) {
+    dlopen(object.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
+  }
+}
+
+// To be called before TBB may start a worker.
+void prepare_for_workers() {
+  static std::once_flag prepared;
+  std::call_once(prepared, [] {
+    stay_loaded();
+    pthread_atfork(nullptr, nullptr, [] { workers_are_gone = true; });
+  });
 }
 
 struct Arena {
@@ -93,7 +104,8 @@ class BorrowedArena {
 
 template <class Body>
 void within_arena(uint32_t threads, const Body& body) {
-  if (threads != 1) stay_loaded();
+  if (workers_are_gone) threads = 1;
+  if (threads != 1) prepare_for_workers();
   if (threads == 0) {
     body();
     return;
@@ -109,6 +121,10 @@ void within_arena(uint32_t threads, const Body& body) {
 }  // namespace
 
 void run_on_tbb(uint32_t threads, uint64_t count, void (*body)(void*, uint64_t), void* context) {
+  if (workers_are_gone) {
+    for (uint64_t i = 0; i < count; ++i) body(context, i);
+    return;
+  }
   within_arena(threads, [&] {
     tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) { body(context, i); });
   });

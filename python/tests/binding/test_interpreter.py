@@ -105,8 +105,9 @@ PLACES = {
 
 def run(script, *arguments):
     source = textwrap.dedent(CALLS) + textwrap.dedent(script)
+    no_advice = "-Wignore::DeprecationWarning"  # Python warns of forks beside threads
     return subprocess.run(
-        [sys.executable, "-c", source, *map(str, arguments)],
+        [sys.executable, no_advice, "-c", source, *map(str, arguments)],
         check=False,
         capture_output=True,
         text=True,
