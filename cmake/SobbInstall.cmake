@@ -41,4 +41,22 @@ foreach(library IN LISTS sobb_libraries)
     DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()
 
-install(FILES LICENSE THIRD_PARTY_NOTICES.md DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/sobb)
+# Headers and documents name each other as they lie in the sources, so they lie so here as well.
+set(sobb_doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/sobb)
+install(FILES README.md CHANGELOG.md SECURITY.md LICENSE THIRD_PARTY_NOTICES.md
+  DESTINATION ${sobb_doc_dir})
+install(DIRECTORY docs DESTINATION ${sobb_doc_dir} PATTERN data EXCLUDE)
+install(DIRECTORY capi/examples DESTINATION ${sobb_doc_dir}/capi FILES_MATCHING PATTERN "*.c")
+
+# The Python package looks for programs in bin beside the folder of the libraries.
+set(sobb_programs)
+foreach(program IN ITEMS sobb_bench sobb_bench_volumes)
+  if(TARGET ${program})
+    list(APPEND sobb_programs ${program})
+  endif()
+endforeach()
+if(sobb_programs)
+  file(RELATIVE_PATH sobb_lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(${sobb_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/${sobb_lib_from_bin}")
+  install(TARGETS ${sobb_programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

@@ -13,6 +13,7 @@ static const sobb_trace_options trace_options = SOBB_TRACE_OPTIONS_INIT;
 static const sobb_info info = SOBB_INFO_INIT;
 static const sobb_scene_options scene_options = SOBB_SCENE_OPTIONS_INIT;
 static const sobb_scene_info scene_info = SOBB_SCENE_INFO_INIT;
+static const sobb_scene_note scene_note = SOBB_SCENE_NOTE_INIT;
 
 /* Returns whether the struct begins with its size, and has no other byte set. */
 static int is_initial(const void* options, uint32_t size) {
@@ -38,7 +39,8 @@ int main(void) {
                  is_initial(&trace_options, sizeof trace_options) &&
                  is_initial(&info, sizeof info) &&
                  is_initial(&scene_options, sizeof scene_options) &&
-                 is_initial(&scene_info, sizeof scene_info)
+                 is_initial(&scene_info, sizeof scene_info) &&
+                 is_initial(&scene_note, sizeof scene_note)
              ? 0
              : 1;
 }

@@ -86,9 +86,16 @@ typedef struct sobb_scene_options {
    */
   int (*progress)(void* user, double fraction);
   void* progress_user;
+  /**
+   * A point that is subtracted from all positions and views, in double, before they are rounded to
+   * float: for large coordinates such as UTM's. A turn about the box's centre comes after it.
+   */
+  double origin[3];
 } sobb_scene_options;
-#define SOBB_SCENE_OPTIONS_INIT \
-  { sizeof(sobb_scene_options), 0, NULL, 0, NULL, NULL }
+#define SOBB_SCENE_OPTIONS_INIT                                     \
+  {                                                                 \
+    sizeof(sobb_scene_options), 0, NULL, 0, NULL, NULL, { 0, 0, 0 } \
+  }
 
 /** What a scene is; filled by sobb_scene_get_info(). */
 typedef struct sobb_scene_info {
@@ -103,10 +110,8 @@ typedef struct sobb_scene_info {
   float bounds_max[3];
   uint64_t note_count; /**< notes on what was passed over, at most one per cause */
 } sobb_scene_info;
-#define SOBB_SCENE_INFO_INIT                                          \
-  {                                                                   \
-    sizeof(sobb_scene_info), 0, 0, 0, 0, 0, 0, {0, 0, 0}, { 0, 0, 0 } \
-  }
+#define SOBB_SCENE_INFO_INIT \
+  { sizeof(sobb_scene_info), 0, 0, 0, 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0 }
 
 /** Why a part of a scene's source was passed over. Values are never reused. */
 typedef enum sobb_note_cause {
@@ -125,6 +130,8 @@ typedef struct sobb_scene_note {
   uint64_t count;      /**< items passed over */
   const char* message; /**< the first of them, its place and fault; owned by the scene */
 } sobb_scene_note;
+#define SOBB_SCENE_NOTE_INIT \
+  { sizeof(sobb_scene_note), 0, 0, NULL }
 
 /**
  * Loads a scene.
@@ -158,11 +165,12 @@ SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_get_info(const sobb_scene* 
  * Fills @p note with note @p index (below note_count) up to its struct_size. Notes are in order of
  * their causes.
  */
-SOBB_API sobb_status sobb_scene_get_note(const sobb_scene* scene, uint64_t index,
-                                         sobb_scene_note* note);
+SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_get_note(const sobb_scene* scene,
+                                                              uint64_t index,
+                                                              sobb_scene_note* note);
 
 /** A cause in words for people, such as "faces of fewer than three corners"; never NULL. */
-SOBB_API const char* sobb_note_cause_name(uint32_t cause);
+SOBB_SCENE_API const char* sobb_note_cause_name(uint32_t cause);
 
 /** The scene's triangles, ready for sobb_build(); the arrays live as long as the scene. */
 SOBB_NODISCARD SOBB_SCENE_API sobb_status sobb_scene_triangles(const sobb_scene* scene,
