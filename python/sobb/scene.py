@@ -3,7 +3,7 @@
 
 import ctypes
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from ctypes import byref, c_void_p
 from dataclasses import dataclass
 from functools import cached_property
@@ -50,6 +50,8 @@ class Scene:
         views: str | os.PathLike[str] | None = None,
         memory_limit: int = 0,
         progress: Callable[[float], None] | None = None,
+        *,
+        origin: Sequence[float] | None = None,
     ) -> "Scene":
         """Loads a scene file or makes a built-in scene.
 
@@ -59,11 +61,15 @@ class Scene:
         views: a JSON file of views; None for a cameras.json beside the scene, if there is one.
         memory_limit: bytes that loading may hold at once; 0 for none.
         progress: as in sobb.build(); raising from it gives up a file that takes too long.
+        origin: a point that is subtracted from positions and views in float64, before they are
+            rounded to float32: for large coordinates such as UTM's.
         """
         options = structs.SceneOptions(
             views_path=None if views is None else library.path_bytes(views),
             memory_limit=library.unsigned("memory_limit", memory_limit, 64),
         )
+        if origin is not None:
+            options.origin[:] = library.point(origin)
         lib = library.scene()
 
         def call(report: Any) -> "Scene":

@@ -119,6 +119,7 @@ class SceneOptions(SizedStruct):
         ("memory_limit", c_uint64),
         ("progress", Progress),
         ("progress_user", c_void_p),
+        ("origin", c_double * 3),
     ]
 
 

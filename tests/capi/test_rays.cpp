@@ -292,10 +292,13 @@ TEST_P(Rays, CallersFloatingPointControlIsKeptAndIgnored) {
         _mm_setcsr(odd);
         const std::vector<sobb_hit> hits = trace(hierarchy, rays, options);
         sobb_hit one;
-        sobb_intersect1(hierarchy.get(), rays.data(), &one);
-        sobb_brute_force(&triangles, rays.data(), rays.size(), oracle.data(), &options);
+        const sobb_status first = sobb_intersect1(hierarchy.get(), rays.data(), &one);
+        const sobb_status second =
+            sobb_brute_force(&triangles, rays.data(), rays.size(), oracle.data(), &options);
         const unsigned after = _mm_getcsr();
         _mm_setcsr(found);
+        EXPECT_EQ(first, SOBB_OK);
+        EXPECT_EQ(second, SOBB_OK);
         EXPECT_EQ(after & ~0x3FU, odd) << "flags but those of exceptions";
         EXPECT_TRUE(same(hits, expected));
         EXPECT_TRUE(same(one, expected[0]));

@@ -12,12 +12,11 @@ namespace sobb::test {
 
 inline Soup builtin_soup(const std::string& name) {
   sobb_scene* scene = nullptr;
-  if (sobb_scene_load(("builtin:" + name).c_str(), nullptr, &scene) != SOBB_OK) {
+  sobb_triangles triangles = SOBB_TRIANGLES_INIT;
+  if (sobb_scene_load(("builtin:" + name).c_str(), nullptr, &scene) != SOBB_OK ||
+      sobb_scene_triangles(scene, &triangles) != SOBB_OK) {
     throw std::runtime_error(sobb_last_error());
   }
-  sobb_triangles triangles = {};
-  triangles.struct_size = sizeof triangles;
-  sobb_scene_triangles(scene, &triangles);
   Soup soup{name,
             {triangles.vertices, triangles.vertices + 3 * triangles.vertex_count},
             {triangles.indices, triangles.indices + 3 * triangles.triangle_count}};

@@ -50,9 +50,9 @@ void report(uint64_t tried) {
 bool same_bytes(const HierarchyHandle& a, const HierarchyHandle& b) {
   const void* data[2] = {};
   uint64_t size[2] = {};
-  sobb_bytes(a.get(), &data[0], &size[0]);
-  sobb_bytes(b.get(), &data[1], &size[1]);
-  return size[0] == size[1] && std::memcmp(data[0], data[1], size[0]) == 0;
+  return sobb_bytes(a.get(), &data[0], &size[0]) == SOBB_OK &&
+         sobb_bytes(b.get(), &data[1], &size[1]) == SOBB_OK && size[0] == size[1] &&
+         std::memcmp(data[0], data[1], size[0]) == 0;
 }
 
 class FailingBuild : public testing::TestWithParam<std::tuple<uint32_t, uint32_t>> {};

@@ -33,6 +33,21 @@ def test_file(quad):
     assert sum(mesh.triangle_count for mesh in scene.meshes) == 2
 
 
+def test_an_origin_is_subtracted_before_rounding(tmp_path):
+    far = tmp_path / "far.obj"
+    far.write_text(
+        "v 448251.795 5411932.678 1\nv 448252.795 5411932.678 1\n"
+        "v 448251.795 5411933.678 1.25\nf 1 2 3\n"
+    )
+    scene = sobb.Scene.load(far, origin=(448_251.795, 5_411_932.678, 1))
+    np.testing.assert_array_equal(scene.vertices, [[0, 0, 0], [1, 0, 0], [0, 1, 0.25]])
+    assert (sobb.Scene.load(far).vertices[:, 1] == [5411932.5, 5411932.5, 5411933.5]).all()
+    assert (sobb.Scene.load(far, origin=(0, 0, 0)).vertices == sobb.Scene.load(far).vertices).all()
+    for wrong in ((1, 2), (0, 0, np.nan), "abc"):
+        with pytest.raises(ValueError):
+            sobb.Scene.load(far, origin=wrong)
+
+
 def test_default_view(quad):
     scene = sobb.Scene.load(quad)
     assert scene.info.default_view == 1

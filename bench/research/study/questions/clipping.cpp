@@ -47,7 +47,7 @@ Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>
   std::vector<sobb_count> counts(rays.size());
   sobb_trace_options trace = SOBB_TRACE_OPTIONS_INIT;
   trace.counts = counts.data();
-  sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace);
+  bench::check(sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace));
   double steps = 0;
   for (const sobb_count& count : counts) steps += count.nodes + count.blocks;
 
@@ -57,7 +57,7 @@ Json time_library(StudyScene& scene, uint32_t width, const std::vector<sobb_ray>
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < kTimedPasses; ++pass) {
     least = std::min(least, 1e9 * stopwatch.seconds_of([&] {
-      sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace);
+      bench::check(sobb_intersect(built, rays.data(), rays.size(), hits.data(), &trace));
     }));
   }
   const auto count = static_cast<double>(rays.size());
