@@ -173,6 +173,9 @@ core_alone() {
   cmake -D SOBB_WERROR=ON $build
   cmake --build $build
   (cd $build && ctest --output-on-failure --no-tests=error -R '^(base|docs|example|exports|layout)')
+  set +o pipefail # the consumer wants the importers, too
+  cmake -S tests/consumer -B $build/consumer -D sobb_DIR="$PWD/$build" 2>&1 | tr -s ' \n' ' ' |
+    grep -F 'it was built without the importers, component scene'
 }
 
 [[ -f build/release/sobbTargets.cmake ]] || fail "scripts/setup.sh makes the release build first."
