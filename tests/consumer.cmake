@@ -26,11 +26,14 @@ endif()
 add_test(NAME consumer.pkg_config COMMAND
   ${CMAKE_CURRENT_SOURCE_DIR}/consumer/pkg_config.sh ${CMAKE_C_COMPILER}
   ${prefix}/${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/pkg_config ${static})
-add_test(NAME consumer.installed COMMAND
-  ${CMAKE_CURRENT_SOURCE_DIR}/consumer/installed.sh ${CMAKE_C_COMPILER}
-  ${prefix} ${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/installed
-  $<TARGET_NAME_IF_EXISTS:sobb_bench> $<TARGET_NAME_IF_EXISTS:sobb_bench_volumes>
-  COMMAND_EXPAND_LISTS)
 set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP consumer TIMEOUT 900)
-set_tests_properties(consumer.find_package consumer.pkg_config consumer.installed PROPERTIES
-  FIXTURES_REQUIRED consumer)
+set_tests_properties(consumer.find_package consumer.pkg_config PROPERTIES FIXTURES_REQUIRED consumer)
+
+if(BUILD_SHARED_LIBS)
+  add_test(NAME consumer.installed COMMAND
+    ${CMAKE_CURRENT_SOURCE_DIR}/consumer/installed.sh ${CMAKE_C_COMPILER}
+    ${prefix} ${CMAKE_INSTALL_LIBDIR} ${consumer_dir}/installed
+    $<TARGET_NAME_IF_EXISTS:sobb_bench> $<TARGET_NAME_IF_EXISTS:sobb_bench_volumes>
+    COMMAND_EXPAND_LISTS)
+  set_tests_properties(consumer.installed PROPERTIES FIXTURES_REQUIRED consumer)
+endif()
