@@ -5,11 +5,14 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "builder/sampled_triangle.h"
 #include "builder/topology/topology.h"
+#include "format/layout.h"
 #include "support/soups.h"
 #include "support/supported_isas.h"
 
@@ -40,6 +43,33 @@ Soup needle_soup(uint64_t seed, uint32_t triangles) {
       c[k] = random.between(0, 1);
     }
     soup.add(a, b, c);
+  }
+  return soup;
+}
+
+// Triangles of all sizes from 1 down to a power of two, about one point.
+Soup shrinking_soup(uint64_t seed, uint32_t triangles, double least_exponent) {
+  Soup soup;
+  soup.name = "shrinking by 2^" + std::to_string(least_exponent);
+  Random random(seed);
+  for (uint32_t i = 0; i < triangles; ++i) {
+    const double size = std::exp2(least_exponent * random.uniform());
+    float corner[3][3];
+    for (float(&point)[3] : corner) {
+      for (float& x : point) x = random.between(-size, size);
+    }
+    soup.add(corner[0], corner[1], corner[2]);
+  }
+  return soup;
+}
+
+// Most triangles lie in one cell of any grid over all of them, so that it needs a grid of its own.
+Soup clustered_soup(uint64_t seed, uint32_t triangles) {
+  Soup soup = placed(random_soup(seed, triangles, 0.05), 1e-4, 0.3);
+  soup.name = "clustered";
+  const Soup around = random_soup(seed + 1, triangles / 20, 0.01);
+  for (uint64_t i = 0; i < around.indices.size() / 3; ++i) {
+    soup.add(around.corner(i, 0), around.corner(i, 1), around.corner(i, 2));
   }
   return soup;
 }
@@ -127,12 +157,26 @@ std::vector<Box> boxes_of(const Tree& tree) {
 }
 
 TEST(Topology, HoldsEveryPointOfEveryTriangle) {
-  for (const Soup& soup :
-       {random_soup(1, 3000), random_soup(2, 400, 1.5), sliver_soup(3, 1000), needle_soup(21, 3000),
-        degenerate_soup(4, 500), random_soup(5, 1), random_soup(5, 2), random_soup(5, 7),
-        random_soup(5, 10), identical_soup(100), random_soup(9, 20'000), sliver_soup(16, 9'000),
-        flat_soup(17, 2'000), placed(random_soup(2, 400, 1.5), 0x1p50, 1e3),
-        placed(random_soup(2, 400, 1.5), 1, 1e-30)}) {
+  for (const Soup& soup : {random_soup(1, 3000),
+                           random_soup(2, 400, 1.5),
+                           sliver_soup(3, 1000),
+                           needle_soup(21, 3000),
+                           degenerate_soup(4, 500),
+                           random_soup(5, 1),
+                           random_soup(5, 2),
+                           random_soup(5, 7),
+                           random_soup(5, 10),
+                           identical_soup(100),
+                           random_soup(9, 20'000),
+                           sliver_soup(16, 9'000),
+                           flat_soup(17, 2'000),
+                           placed(random_soup(2, 400, 1.5), 0x1p50, 1e3),
+                           shrinking_soup(22, 5'000, -60),
+                           shrinking_soup(23, 20'000, -40),
+                           shrinking_soup(24, 3'000, -140),
+                           clustered_soup(25, 30'000),
+                           identical_soup(20'000),
+                           placed(random_soup(2, 400, 1.5), 1, 1e-30)}) {
     for (const sobb_quality quality : kQualities) {
       SCOPED_TRACE(soup.name + " quality " + std::to_string(quality));
       const Tree tree(soup, quality, 1);
@@ -197,6 +241,12 @@ double surface_area_cost(const Topology& topology, const TopologyNode& node) {
          surface_area_cost(topology, topology.child(node, 1));
 }
 
+uint32_t depth_below(const Topology& topology, const TopologyNode& node) {
+  if (node.is_leaf) return 1;
+  return 1 + std::max(depth_below(topology, topology.child(node, 0)),
+                      depth_below(topology, topology.child(node, 1)));
+}
+
 TEST(Topology, SpatialSplitsMakeLongNeedlesCheaper) {
   const Soup soup = random_soup(13, 3000, 1.5);
   const Tree medium(soup, SOBB_QUALITY_MEDIUM, 1);
@@ -223,9 +273,24 @@ TEST(Topology, LargeTrianglesAreToldFromSmallOnes) {
   EXPECT_EQ(node->count, 5000u);
 }
 
+// Ever smaller triangles about one point make a row of nodes, which no depth of the file holds
+// unless the builder halves them at last.
+TEST(Topology, KeepsToTheFilesDepth) {
+  for (const double least_exponent : {-20.0, -60.0, -120.0}) {
+    for (const uint32_t triangles : {50U, 5'000U, 40'000U}) {
+      for (const sobb_quality quality : kQualities) {
+        const Soup soup = shrinking_soup(27, triangles, least_exponent);
+        const Tree tree(soup, quality, 2);
+        EXPECT_LE(depth_below(tree.topology, tree.topology.root()), kMaxDepth)
+            << soup.name << ", " << triangles << " triangles, quality " << quality;
+      }
+    }
+  }
+}
+
 TEST(Topology, IsTheSameForAnyInstructionSet) {
   for (const Soup& soup : {random_soup(18, 20'000, 0.3), needle_soup(19, 6'000)}) {
-    for (const sobb_quality quality : {SOBB_QUALITY_MEDIUM, SOBB_QUALITY_HIGH}) {
+    for (const sobb_quality quality : kQualities) {
       const Tree expected(soup, quality, 1);
       for (const sobb_isa isa : supported_isas()) {
         const Tree tree(soup, quality, 1, isa);
@@ -239,8 +304,8 @@ TEST(Topology, IsTheSameForAnyInstructionSet) {
 
 TEST(Topology, IsTheSameForAnyThreadCount) {
   const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
-  for (const Soup& soup :
-       {random_soup(7, 30'000, 0.3), needle_soup(8, 6'000), identical_soup(10'000)}) {
+  for (const Soup& soup : {random_soup(7, 30'000, 0.3), needle_soup(8, 6'000),
+                           identical_soup(10'000), clustered_soup(26, 30'000)}) {
     for (const sobb_quality quality : kQualities) {
       const Tree one(soup, quality, 1);
       for (const uint32_t threads : {2, 3, 8}) {

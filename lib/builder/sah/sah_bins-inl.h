@@ -219,10 +219,18 @@ void bound(const SahReference* references, uint64_t count, SahExtent& extent) {
     const auto centre = centre_of(references[i]);
     lower = hn::Min(lower, centre);
     upper = hn::Max(upper, centre);
-    grow(extent.box.at, references[i].lower);
   }
   hn::Store(lower, d, extent.centres.lower);
   hn::Store(upper, d, extent.centres.upper);
+  // The box stays in registers: a load from where the last step stored would wait for it.
+  const Tag8 d8;
+  for (size_t at = 0; at < 8; at += hn::Lanes(d8)) {
+    auto box = hn::Load(d8, extent.box.at + at);
+    for (uint64_t i = 0; i < count; ++i) {
+      box = hn::Min(hn::Load(d8, references[i].lower + at), box);
+    }
+    hn::Store(box, d8, extent.box.at + at);
+  }
 }
 
 }  // namespace

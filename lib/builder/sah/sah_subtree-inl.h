@@ -8,6 +8,7 @@
 #endif
 
 #include "builder/sah/sah_kinds-inl.h"
+#include "builder/sah/sah_middle-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace sobb {
@@ -30,6 +31,7 @@ class SubtreeBuilder {
  private:
   // Makes a node of the references of array `from`.
   void add(const SahNode& node, int from, uint32_t depth, TopologyNode& made) {
+    if (node.count <= subtree_.middle_count) return add_by_middle(node, from, depth, made);
     made.box = node.extent.box.box();
     Split split;
     if (node.count > 1 && depth < kDeepestSplit && !is_one_block(node, from)) {
@@ -50,6 +52,36 @@ class SubtreeBuilder {
     add(child[0], from, depth + 1, pair.child[0]);
     add(child[1], from, depth + 1, pair.child[1]);
     made.count = pair.count();
+  }
+
+  // Makes a node likewise, with splits in the middle. A block of triangles is not split further.
+  void add_by_middle(const SahNode& node, int from, uint32_t depth, TopologyNode& made) {
+    made.box = node.extent.box.box();
+    made.is_leaf = blocks_of(node.count) == 1;
+    if (made.is_leaf) return finish(node, from, made);
+    SahNode child[2];
+    if (depth < kDeepestSplit && has_middle(node)) {
+      const SahReference* references = subtree_.at[from] + node.begin;
+      from = 1 - from;
+      split_in_middle(references, node, subtree_.at[from] + node.begin, child);
+    } else {
+      halve(node, from, child);
+    }
+    // The references of both sides lie side by side, so that they can still become one leaf.
+    made.is_leaf =
+        node.count <= kMaxLeafReferences && is_leaf_cheaper(node.count, split_cost(node, child));
+    if (made.is_leaf) return finish(node, from, made);
+    made.first = static_cast<uint32_t>(subtree_.pairs.size());
+    NodePair& pair = subtree_.pairs.emplace_back();
+    add_by_middle(child[0], from, depth + 1, pair.child[0]);
+    add_by_middle(child[1], from, depth + 1, pair.child[1]);
+    made.count = pair.count();
+  }
+
+  static float split_cost(const SahNode& node, const SahNode child[2]) {
+    const Areas area(node.extent.box);
+    return area(child[0].extent.box) * blocks(child[0].count) +
+           area(child[1].extent.box) * blocks(child[1].count);
   }
 
   static bool is_leaf_cheaper(uint64_t count, float split_cost) {
@@ -111,8 +143,9 @@ class SubtreeBuilder {
   // Writes a leaf's references. Parts of one triangle, which lie next to each other, become one.
   void finish(const SahNode& node, int from, TopologyNode& leaf) const {
     const SahReference* references = subtree_.at[from] + node.begin;
-    uint32_t* primitives = subtree_.primitives + node.begin;
-    Box* cuts = subtree_.cuts == nullptr ? nullptr : subtree_.cuts + node.begin;
+    const uint64_t first = subtree_.first + node.begin;
+    uint32_t* primitives = subtree_.primitives + first;
+    Box* cuts = subtree_.cuts == nullptr ? nullptr : subtree_.cuts + first;
     uint32_t kept = 0;
     for (uint64_t i = 0; i < node.count; ++i) {
       if (kept > 0 && primitives[kept - 1] == references[i].primitive) {
@@ -123,8 +156,10 @@ class SubtreeBuilder {
       if (cuts != nullptr) cuts[kept] = references[i].is_cut != 0 ? references[i].box() : kUncut;
       ++kept;
     }
-    leaf.first = static_cast<uint32_t>(node.begin);
+    leaf.first = static_cast<uint32_t>(first);
     leaf.count = kept;
+    // Splits in the middle do not keep the order.
+    if (node.count <= subtree_.middle_count) std::sort(primitives, primitives + kept);
   }
 
   SahSubtree& subtree_;

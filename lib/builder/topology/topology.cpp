@@ -5,7 +5,7 @@
 
 #include "base/isa.h"
 #include "builder/sah/sah_costs.h"
-#include "builder/topology/embree_topology.h"
+#include "builder/topology/morton_topology.h"
 #include "builder/topology/reinsertion.h"
 #include "builder/topology/topology_builder.h"
 
@@ -80,7 +80,8 @@ BinaryNodes topology_of(sobb_quality quality, const Mesh& mesh, const Scheduler&
                         Memory& memory, Progress& progress, double progress_end, const Frame& frame,
                         sobb_isa isa) {
   if (quality == SOBB_QUALITY_LOW) {
-    return embree_topology(mesh, scheduler, memory, progress, progress_end, frame);
+    return morton_topology(mesh, sah_kernels(resolve_isa(isa)), scheduler, memory, progress,
+                           progress_end, frame);
   }
   const bool high = quality == SOBB_QUALITY_HIGH;
   const ReinsertionEffort& effort = high ? kHighEffort : kMediumEffort;

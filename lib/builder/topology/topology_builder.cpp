@@ -24,7 +24,7 @@ constexpr double kLeastOverlap = 1e-5;
 void TopologyBuilder::build(Progress& progress, double progress_begin, double progress_end) {
   const double progress_of_top = progress_begin + (progress_end - progress_begin) * kTopShare;
   const uint64_t limit = std::max(kSubtreeReferences, build_.count / kSubtreeParts);
-  Level level({{bound_all(), kNone, 0}}, &memory_);
+  Level level({{bound_all(), {}}}, &memory_);
   cutting_.least_overlap = level[0].node.extent.box.box().half_area() * kLeastOverlap;
   for (uint32_t depth = 0; !level.empty(); ++depth) {
     // Each level halves the nodes: ten levels do nearly all of the work.
@@ -49,10 +49,11 @@ void TopologyBuilder::build(Progress& progress, double progress_begin, double pr
     }
   }
   std::atomic<uint64_t> done{0};
-  scheduler_.for_each(subtrees_.size(), [&](uint64_t i) {
+  const std::span<SahSubtree> subtrees = top_.subtrees();
+  scheduler_.for_each(subtrees.size(), [&](uint64_t i) {
     progress.check(progress_of_top, progress_end,
-                   static_cast<double>(done) / static_cast<double>(subtrees_.size()));
-    kernels_.build(subtrees_[i]);
+                   static_cast<double>(done) / static_cast<double>(subtrees.size()));
+    kernels_.build(subtrees[i]);
     ++done;
   });
 }
@@ -177,10 +178,7 @@ void TopologyBuilder::place_references(TopNode& top, ReferenceChunk* chunks, int
 }
 
 void TopologyBuilder::add_subtree(const TopNode& top, uint32_t depth, int from) {
-  if (top.parent != kNone) {
-    top_[top.parent].subtree[top.side] = static_cast<uint32_t>(subtrees_.size());
-  }
-  SahSubtree& subtree = subtrees_.emplace_back(top.node, memory_);
+  SahSubtree& subtree = top_.add_subtree(top.place, top.node);
   subtree.depth = depth;
   subtree.at[0] = build_.references[from];
   subtree.at[1] = build_.references[1 - from];
@@ -190,61 +188,8 @@ void TopologyBuilder::add_subtree(const TopNode& top, uint32_t depth, int from) 
 }
 
 void TopologyBuilder::add_children(const TopNode& top, Level& next) {
-  const auto pair = static_cast<uint32_t>(top_.size());
-  // place_pair() fills in the count, once the subtrees are made.
-  TopologyNode& made = top.parent == kNone ? root_ : top_[top.parent].nodes.child[top.side];
-  made.box = top.node.extent.box.box();
-  made.first = pair;
-  made.is_leaf = false;
-  top_.emplace_back();
-  for (uint32_t side = 0; side < 2; ++side) next.push_back({top.child[side], pair, side});
-}
-
-// Lays out a pair of the top and all that is below it from `at` on. Returns the place after them.
-uint64_t TopologyBuilder::place_pair(uint32_t top_pair, uint64_t at, Array<NodePair>& pairs,
-                                     std::pmr::vector<uint64_t>& places) const {
-  const uint64_t own = at++;
-  NodePair pair = top_[top_pair].nodes;
-  for (int side = 0; side < 2; ++side) {
-    const uint32_t subtree = top_[top_pair].subtree[side];
-    if (subtree == kNone) {
-      const uint32_t below = pair.child[side].first;
-      pair.child[side].first = static_cast<uint32_t>(at);
-      at = place_pair(below, at, pairs, places);
-      pair.child[side].count = pairs[pair.child[side].first].count();
-    } else {
-      places[subtree] = at;
-      pair.child[side] = subtrees_[subtree].root;
-      if (!pair.child[side].is_leaf) pair.child[side].first += static_cast<uint32_t>(at);
-      at += subtrees_[subtree].pairs.size();
-    }
-  }
-  pairs[own] = pair;
-  return at;
-}
-
-Array<NodePair> TopologyBuilder::collect(TopologyNode& root) const {
-  uint64_t count = top_.size();
-  for (const SahSubtree& subtree : subtrees_) count += subtree.pairs.size();
-  Array<NodePair> pairs(count, memory_);
-  std::pmr::vector<uint64_t> places(subtrees_.size(), &memory_);
-  if (top_.empty()) {
-    root = subtrees_[0].root;
-  } else {
-    place_pair(0, 0, pairs, places);
-    root = root_;
-    root.count = pairs[0].count();
-  }
-  scheduler_.for_each(subtrees_.size(), [&](uint64_t i) {
-    NodePair* to = pairs.data() + places[i];
-    for (const NodePair& pair : subtrees_[i].pairs) {
-      NodePair& moved = *to++ = pair;
-      for (TopologyNode& node : moved.child) {
-        if (!node.is_leaf) node.first += static_cast<uint32_t>(places[i]);
-      }
-    }
-  });
-  return pairs;
+  const uint32_t pair = top_.add_pair(top.place, top.node.extent.box.box());
+  for (uint32_t side = 0; side < 2; ++side) next.push_back({top.child[side], {pair, side}});
 }
 
 }  // namespace sobb

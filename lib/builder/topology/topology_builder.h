@@ -11,6 +11,7 @@
 #include "base/scheduler.h"
 #include "builder/array.h"
 #include "builder/sah/sah_kernels.h"
+#include "builder/topology/treetop.h"
 
 namespace sobb {
 
@@ -35,23 +36,19 @@ class TopologyBuilder {
         kernels_(kernels),
         scheduler_(scheduler),
         memory_(memory),
-        top_(&memory),
-        subtrees_(&memory) {}
+        top_(memory) {}
 
   // Makes all nodes, and overwrites the references.
   void build(Progress& progress, double progress_begin, double progress_end);
 
   // Collects the nodes, depth first.
-  Array<NodePair> collect(TopologyNode& root) const;
+  Array<NodePair> collect(TopologyNode& root) const { return top_.collect(scheduler_, root); }
 
  private:
-  static constexpr uint32_t kNone = 0xFFFFFFFF;
-
   // A node of the top that is still to be split.
   struct TopNode {
     SahNode node;
-    uint32_t parent;  // pair of top_ whose child the node is; kNone for the root
-    uint32_t side;
+    Treetop::Place place;
     Split split{};       // the best so far
     Split trial{};       // one that may be better
     SahNode child[2]{};  // the sides of `split`
@@ -72,12 +69,6 @@ class TopologyBuilder {
   using Level = std::pmr::vector<TopNode>;
   using Chunks = std::pmr::vector<ReferenceChunk>;
 
-  // Two nodes of the top, each of which may be a subtree's root instead.
-  struct TopPair {
-    NodePair nodes;
-    uint32_t subtree[2] = {kNone, kNone};
-  };
-
   SahNode bound_all() const;
   void split_level(Level& level, int from) const;
   void try_splits(SplitKind kind, Level& level, Chunks& chunks, int from) const;
@@ -88,17 +79,13 @@ class TopologyBuilder {
   const Cutting* cutting() const { return build_.cuts == nullptr ? nullptr : &cutting_; }
   void add_subtree(const TopNode& top, uint32_t depth, int from);
   void add_children(const TopNode& top, Level& next);
-  uint64_t place_pair(uint32_t top_pair, uint64_t at, Array<NodePair>& pairs,
-                      std::pmr::vector<uint64_t>& places) const;
 
   SahBuild build_;
   Cutting cutting_;
   const SahKernels& kernels_;
   const Scheduler& scheduler_;
   Memory& memory_;
-  TopologyNode root_{};
-  std::pmr::vector<TopPair> top_;
-  std::pmr::vector<SahSubtree> subtrees_;
+  Treetop top_;
 };
 
 }  // namespace sobb
