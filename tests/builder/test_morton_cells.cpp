@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/memory.h"
@@ -16,14 +18,16 @@ namespace sobb::test {
 namespace {
 
 struct Sorted {
+  Soup soup;
   Memory memory;
   Scheduler scheduler;
   Mesh mesh;
   std::vector<uint32_t> triangles;
   MortonCells cells;
 
-  Sorted(const Soup& soup, uint32_t threads)
-      : scheduler(threads, nullptr),
+  Sorted(Soup of, uint32_t threads)
+      : soup(std::move(of)),
+        scheduler(threads, nullptr),
         mesh(soup.view(), scheduler),
         triangles(all(mesh)),
         cells(sort_into_cells(mesh, Frame(), triangles, scheduler, memory)) {}
