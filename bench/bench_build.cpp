@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rows build/METHOD measure the way from triangles to a hierarchy.
+#include <memory>
+
 #include "rows.h"
 
 namespace sobb::bench {
@@ -30,9 +32,10 @@ void build_subject(benchmark::State& state, const Workbench& workbench, Method m
 void build_peer(benchmark::State& state, const Workbench& workbench, Method method) {
   uint64_t bytes = 0;
   for ([[maybe_unused]] auto _ : state) {
-    const EmbreePeer peer(workbench.scene(), method, workbench.flags(), workbench.flags().threads);
-    state.SetIterationTime(peer.build_seconds());
-    bytes = peer.bytes();
+    const std::unique_ptr<Peer> peer(peer_library()->make(
+        workbench.scene(), method, workbench.flags(), workbench.flags().threads));
+    state.SetIterationTime(peer->build_seconds());
+    bytes = peer->bytes();
   }
   state.counters["bytes/triangle"] = workbench.per_triangle(bytes);
 }
@@ -41,6 +44,7 @@ void build_peer(benchmark::State& state, const Workbench& workbench, Method meth
 
 void register_build_rows(Workbench& workbench) {
   for (const Method method : kMethods) {
+    if (is_peer(method) && peer_library() == nullptr) continue;
     register_row("build/" + name_of(method), [&workbench, method](benchmark::State& state) {
       (is_peer(method) ? build_peer : build_subject)(state, workbench, method);
     });

@@ -56,15 +56,19 @@ void replay_subject(benchmark::State& state, Workbench& workbench, RayKind kind,
 
 void trace_peer(benchmark::State& state, Workbench& workbench, RayKind kind, Method method,
                 Call call) {
-  const EmbreePeer& peer = workbench.peer(method);
+  Peer& peer = workbench.peer(method);
   const RaySet& set = workbench.rays(kind);
-  EmbreeRays& rays = workbench.embree_rays();
   for ([[maybe_unused]] auto _ : state) {
-    rays.load(set, call);
-    state.SetIterationTime(peer.trace(set, call, workbench.workers(), rays));
+    peer.load(set, call);
+    state.SetIterationTime(peer.trace(set, call, workbench.workers()));
   }
   set_speed(state, set);
   state.counters["bytes/triangle"] = workbench.per_triangle(peer.bytes());
+}
+
+bool peer_has(Call call) {
+  const PeerLibrary* library = peer_library();
+  return library != nullptr && (call != Call::kArray || library->has_array_call);
 }
 
 }  // namespace
@@ -73,7 +77,7 @@ void register_trace_rows(Workbench& workbench) {
   for (const RayKind kind : kRayKinds) {
     for (const Method method : kMethods) {
       for (const Call call : kCalls) {
-        if (is_peer(method) && call == Call::kArray && !kEmbreeHasArrayCall) continue;
+        if (is_peer(method) && !peer_has(call)) continue;
         register_row(row_name(kind, method, call), [&workbench, kind, method,
                                                     call](benchmark::State& state) {
           (is_peer(method) ? trace_peer : trace_subject)(state, workbench, kind, method, call);

@@ -5,7 +5,6 @@
 #include <fstream>
 
 #include "check.h"
-#include "embree_calls.h"
 
 namespace sobb::bench {
 
@@ -33,7 +32,5 @@ std::string library_version() {
   return std::to_string(version >> 16) + "." + std::to_string(version >> 8 & 0xFF) + "." +
          std::to_string(version & 0xFF);
 }
-
-std::string embree_version() { return RTC_VERSION_STRING; }
 
 }  // namespace sobb::bench

@@ -18,6 +18,5 @@ std::string isa_name(sobb_isa isa);
 std::string strategy_name(uint32_t strategy);
 
 std::string library_version();
-std::string embree_version();
 
 }  // namespace sobb::bench

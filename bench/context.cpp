@@ -35,7 +35,7 @@ void add_context(const Workbench& workbench) {
   add("clock", flags.threads == 1 ? "processor time" : "wall");
   add("isa", isa_name(SOBB_ISA_BEST));
   add("sobb", library_version());
-  add("embree", embree_version());
+  add("embree", peer_library() == nullptr ? "none" : peer_library()->version);
   add("embree_isa", flags.embree_isa.empty() ? "best" : flags.embree_isa);
   add("processor", processor());
 }

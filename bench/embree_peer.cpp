@@ -76,8 +76,14 @@ void EmbreePeer::build(const SceneInput& input) {
   rtcCommitScene(scene_.get());
 }
 
-double EmbreePeer::trace(const RaySet& set, Call call, Workers& workers, EmbreeRays& rays) const {
+EmbreeRays& EmbreePeer::rays() {
+  static EmbreeRays rays;
+  return rays;
+}
+
+double EmbreePeer::trace(const RaySet& set, Call call, Workers& workers) {
   const bool coherent = set.coherent();
+  EmbreeRays& rays = EmbreePeer::rays();
   return clock_.seconds_of([&] {
     switch (call) {
       case Call::kSingle:
@@ -129,3 +135,14 @@ void EmbreePeer::trace_array([[maybe_unused]] std::vector<Ray>& rays,
 }
 
 }  // namespace sobb::bench
+
+extern "C" __attribute__((visibility("default"))) const sobb::bench::PeerLibrary*
+sobb_bench_peer_library() {
+  using namespace sobb::bench;
+  static constexpr PeerLibrary kLibrary = {
+      RTC_VERSION_STRING, kEmbreeHasArrayCall,
+      [](const SceneInput& scene, Method method, const Flags& flags, uint32_t threads) -> Peer* {
+        return new EmbreePeer(scene, method, flags, threads);
+      }};
+  return &kLibrary;
+}

@@ -8,26 +8,25 @@
 
 #include "embree_calls.h"
 #include "embree_rays.h"
-#include "flags.h"
-#include "scene_input.h"
+#include "peer.h"
 #include "stopwatch.h"
-#include "workers.h"
 
 namespace sobb::bench {
 
-class EmbreePeer {
+class EmbreePeer final : public Peer {
  public:
   /// Builds with @p build_threads (0: all); the clock runs over the commit of geometry and scene,
   /// not over making the device.
   EmbreePeer(const SceneInput& scene, Method method, const Flags& flags, uint32_t build_threads);
 
-  Method method() const { return method_; }
-  double build_seconds() const { return build_seconds_; }
-  /// What Embree holds after the commit. The vertices and indices that it shares are not in it.
-  uint64_t bytes() const { return static_cast<uint64_t>(bytes_.load()); }
+  double build_seconds() const override { return build_seconds_; }
+  uint64_t bytes() const override { return static_cast<uint64_t>(bytes_.load()); }
 
-  /// Traces what @p rays has loaded for this set and call; returns the seconds that it took.
-  double trace(const RaySet& set, Call call, Workers& workers, EmbreeRays& rays) const;
+  void load(const RaySet& set, Call call) override { rays().load(set, call); }
+  double trace(const RaySet& set, Call call, Workers& workers) override;
+  void read(const RaySet& set, Call call, TraceOutput& output) const override {
+    rays().read(set, call, output);
+  }
 
  private:
   template <typename Ray>
@@ -39,6 +38,8 @@ class EmbreePeer {
   void trace_array(std::vector<Ray>& rays, bool coherent, Workers& workers) const;
 
   void build(const SceneInput& input);
+  /// All peers use the same buffers: their pages are touched once.
+  static EmbreeRays& rays();
 
   Method method_;
   Stopwatch clock_;

@@ -25,6 +25,10 @@ int run(Flags flags) {
   // Calls for one ray and for a packet take their instruction set from the environment.
   if (flags.isa != "best") setenv("SOBB_ISA", flags.isa.c_str(), 1);
   if (flags.embree_isa == kSameIsa) flags.embree_isa = embree_isa_name(SOBB_ISA_BEST);
+  if (peer_library() == nullptr) {
+    std::cerr << "sobb_bench: Embree is not measured, since it is not there: " << why_no_peer()
+              << "\n";
+  }
   Workbench workbench(flags);
   add_context(workbench);
   register_build_rows(workbench);

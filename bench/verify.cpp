@@ -69,13 +69,12 @@ bool verify(Workbench& workbench, std::ostream& log) {
     }
     if (!reference) continue;
     for (const auto& [method, peer] : workbench.peers()) {
-      EmbreeRays& rays = workbench.embree_rays();
       for (const Call call : kCalls) {
-        if (call == Call::kArray && !kEmbreeHasArrayCall) continue;
+        if (call == Call::kArray && !peer_library()->has_array_call) continue;
         TraceOutput output;
-        rays.load(set, call);
-        peer->trace(set, call, workbench.workers(), rays);
-        rays.read(set, call, output);
+        peer->load(set, call);
+        peer->trace(set, call, workbench.workers());
+        peer->read(set, call, output);
         compare_peer(*reference, row_name(kind, method, call), set, output, log);
       }
     }

@@ -30,10 +30,10 @@ const SobbSubject& Workbench::subject(Method method) {
   return subjects_.emplace(method, SobbSubject(scene_, method, flags_, kAllThreads)).first->second;
 }
 
-const EmbreePeer& Workbench::peer(Method method) {
+Peer& Workbench::peer(Method method) {
   const auto found = peers_.find(method);
   if (found != peers_.end()) return *found->second;
-  auto peer = std::make_unique<EmbreePeer>(scene_, method, flags_, kAllThreads);
+  std::unique_ptr<Peer> peer(peer_library()->make(scene_, method, flags_, kAllThreads));
   return *peers_.emplace(method, std::move(peer)).first->second;
 }
 

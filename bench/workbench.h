@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "embree_peer.h"
 #include "flags.h"
+#include "peer.h"
 #include "ray_sets.h"
 #include "scene_input.h"
 #include "sobb_subject.h"
@@ -27,12 +27,12 @@ class Workbench {
   const Flags& flags() const { return flags_; }
   const SceneInput& scene() const { return scene_; }
   Workers& workers() { return workers_; }
-  EmbreeRays& embree_rays() { return embree_rays_; }
   TraceOutput& output() { return output_; }
 
   // Hierarchies that are traced are built with all threads: only `build` rows measure the build.
   const SobbSubject& subject(Method method);
-  const EmbreePeer& peer(Method method);
+  /// Only where peer_library() is there.
+  Peer& peer(Method method);
   const RaySet& rays(RayKind kind);
   /// Counted once, in a pass of its own.
   const WorkPerRay& work(RayKind kind, Method method);
@@ -44,7 +44,7 @@ class Workbench {
 
   // What has been made so far.
   const std::map<Method, SobbSubject>& subjects() const { return subjects_; }
-  const std::map<Method, std::unique_ptr<EmbreePeer>>& peers() const { return peers_; }
+  const std::map<Method, std::unique_ptr<Peer>>& peers() const { return peers_; }
   const std::map<RayKind, RaySet>& ray_sets() const { return ray_sets_; }
 
  private:
@@ -55,10 +55,9 @@ class Workbench {
   const Flags& flags_;
   SceneInput scene_;
   Workers workers_;
-  EmbreeRays embree_rays_;
   TraceOutput output_;
   std::map<Method, SobbSubject> subjects_;
-  std::map<Method, std::unique_ptr<EmbreePeer>> peers_;
+  std::map<Method, std::unique_ptr<Peer>> peers_;
   std::map<RayKind, RaySet> ray_sets_;
   std::map<std::pair<RayKind, Method>, WorkPerRay> work_;
   std::filesystem::path saved_file_;

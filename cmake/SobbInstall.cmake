@@ -35,6 +35,10 @@ install(FILES ${PROJECT_BINARY_DIR}/sobbConfig.cmake ${PROJECT_BINARY_DIR}/sobbC
 set(sobb_pc_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
 file(RELATIVE_PATH sobb_prefix_from_pc ${sobb_pc_dir} ${CMAKE_INSTALL_PREFIX})
 file(RELATIVE_PATH sobb_include_from_pc ${sobb_pc_dir} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+set(sobb_pc_tbb)
+if(SOBB_WITH_TBB)
+  set(sobb_pc_tbb -ltbb)
+endif()
 foreach(library IN LISTS sobb_libraries)
   configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${library}.pc

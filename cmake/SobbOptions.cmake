@@ -9,6 +9,7 @@ option(SOBB_BUILD_SCENE "Build the importers, sobb::scene" ${PROJECT_IS_TOP_LEVE
 option(SOBB_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(SOBB_BUILD_EXAMPLES "Build capi/examples" ${PROJECT_IS_TOP_LEVEL})
 option(SOBB_BUILD_FUZZERS "Build the fuzzers; needs clang and -fsanitize=fuzzer-no-link" OFF)
+option(SOBB_WITH_TBB "Run loops on TBB; else on threads of the library's own" ON)
 set(SOBB_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, e.g. address,undefined")
 
 # An option that needs the option NEEDED, and says so where it was asked for in vain.

@@ -3,16 +3,14 @@
 # libraries and all that they load, bin has the programs. scikit-build-core's runs of CMake include
 # this file.
 
-find_package(TBB CONFIG REQUIRED)
-
 set(wheel_libraries sobb sobb_scene)
 set(wheel_programs sobb_bench sobb_bench_volumes)
 
 # A wheel holds no symbolic links: each library is one file, named as programs ask for it.
 set_target_properties(${wheel_libraries} PROPERTIES VERSION ${SOBB_ABI_VERSION})
 set_target_properties(${wheel_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
-# The old kind of run path holds also for what a library loads in turn: Embree finds TBB beside
-# itself though nothing in it says so.
+# The old kind of run path holds also for what a library loads in turn: what lies in the wheel finds
+# the rest beside itself though nothing in it says so.
 foreach(target IN LISTS wheel_libraries wheel_programs)
   target_link_options(${target} PRIVATE -Wl,--disable-new-dtags)
 endforeach()
@@ -20,9 +18,11 @@ endforeach()
 install(TARGETS ${wheel_libraries} LIBRARY DESTINATION lib NAMELINK_SKIP COMPONENT wheel)
 install(TARGETS ${wheel_programs} RUNTIME DESTINATION bin COMPONENT wheel)
 
-# TBB loads its allocator by name at run time.
-install(FILES $<TARGET_FILE:TBB::tbbmalloc> DESTINATION lib
-  RENAME $<TARGET_SONAME_FILE_NAME:TBB::tbbmalloc> COMPONENT wheel)
+# The module that calls Embree comes without Embree: sobb_bench says where that is not installed.
+if(TARGET sobb_bench_embree)
+  set_target_properties(sobb_bench_embree PROPERTIES INSTALL_RPATH "$ORIGIN")
+  install(TARGETS sobb_bench_embree LIBRARY DESTINATION lib COMPONENT wheel)
+endif()
 
 # The wheel carries what the files load, but takes the C and C++ run time from the system.
 install(CODE [[

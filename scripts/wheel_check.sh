@@ -26,6 +26,12 @@ tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/
 diff "$folder/sources" "$folder/shipped" ||
   { echo "< is not in the source distribution, > is there in vain" >&2; exit 1; }
 
+"$folder/venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps \
+  --config-settings=cmake.define.SOBB_WERROR=ON --wheel-dir "$folder" ./python
+size=$(stat --format %s "$folder"/sobb-*.whl)
+echo "the wheel has $size bytes"
+((size <= 6 << 20)) || { echo "more than 6 MiB" >&2; exit 1; }
+
 package=$("$folder/venv/bin/python" -c 'import sobb; print(sobb.__path__[0])')
 [[ $(ls "$package/native/bin" | xargs) == "sobb_bench sobb_bench_volumes" ]]
 git ls-files python/sobb | while read -r file; do
@@ -44,7 +50,7 @@ from sobb.tools.shared.bench import find_program
 
 assert importlib.metadata.version("sobb") == sobb.version()
 with sobb.Scene.load("builtin:city:3000") as scene:
-    hierarchy = sobb.build(scene, quality="low")  # Embree's builder
+    hierarchy = sobb.build(scene, quality="low")
 rays = np.zeros(100, sobb.ray_dtype)
 rays["origin"][:, 1] = 100
 rays["direction"] = (0, -1, 0)
@@ -58,8 +64,10 @@ loaded = {Path(line.split()[-1]) for line in lines if ".so" in line}
 found = {file for file in loaded if file.name in carried}
 assert {file.parent for file in found} == {native / "lib"}, sorted(found)
 names = sorted(file.name.split(".so")[0] for file in found)
-for start in ("libsobb_scene", "libembree", "libtbbmalloc", "libhwy", "libxxhash"):
+for start in ("libsobb_scene", "libtbb", "libtinygltf", "libOpenMeshCore"):
     assert any(name.startswith(start) for name in names), names
+for start in ("libembree", "libhwy", "libxxhash"):
+    assert not any(name.startswith(start) for name in carried), sorted(carried)
 assert find_program("sobb_bench").parent == native / "bin"
 assert len((native / "commit").read_text().strip().rstrip("+")) == 40
 print("loaded from the wheel:", *names)

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks instruction sets up in their table, and asks Highway which of them the processor has.
+// Looks instruction sets up in their table, and asks the processor which of them it has.
 #include "base/isa.h"
 
 #include "base/instruction_sets.h"
 
-#include <hwy/targets.h>
+#include <hwy/detect_targets.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/processor.h"
 
 namespace sobb {
 namespace {
@@ -38,7 +39,10 @@ static_assert(kSets[0].target == HWY_STATIC_TARGET, "the table's first set is Hi
 
 bool is_set(uint32_t isa) { return isa != SOBB_ISA_BEST && isa <= std::size(kSets); }
 
-bool has(const InstructionSet& set) { return (hwy::SupportedTargets() & set.target) != 0; }
+bool has(const InstructionSet& set) {
+  static const int64_t supported = supported_targets();
+  return (supported & set.target) != 0;
+}
 
 // The least where the processor has none: resolve_isa() then refuses it.
 sobb_isa best() {

@@ -51,14 +51,6 @@ void Memory::raise_peak(uint64_t held) {
   }
 }
 
-bool Memory::count_foreign(int64_t bytes) {
-  const uint64_t held = held_.fetch_add(static_cast<uint64_t>(bytes), std::memory_order_relaxed) +
-                        static_cast<uint64_t>(bytes);
-  if (bytes <= 0) return true;
-  raise_peak(held);
-  return limit_ == 0 || held <= limit_;
-}
-
 void* Memory::do_allocate(size_t size, size_t alignment) {
   if (!add(size)) {
     fail(SOBB_ERROR_MEMORY_LIMIT,

@@ -19,11 +19,6 @@ class Memory final : public std::pmr::memory_resource {
   // `allocator` may be null for the library's own; it is copied. A `limit` of 0 is none.
   explicit Memory(const sobb_allocator* allocator = nullptr, uint64_t limit = 0);
 
-  // Counts bytes that another library (Embree's builder) holds on our behalf against the limit; a
-  // negative number gives them back. Returns false where the limit is exceeded; the bytes are
-  // counted all the same, since that library has them already.
-  bool count_foreign(int64_t bytes);
-
   uint64_t held() const { return held_.load(std::memory_order_relaxed); }
   uint64_t peak() const { return peak_.load(std::memory_order_relaxed); }
   uint64_t limit() const { return limit_; }

@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "base/float_control.h"
-#include "base/tbb_threads.h"
+#include "base/threads/threads.h"
 
 namespace sobb {
 namespace {
@@ -53,13 +53,9 @@ void Scheduler::run(uint64_t count, void (*body)(void*, uint64_t), void* context
   } else if (threads_ == 1 || count <= 1) {
     for (uint64_t i = 0; i < count; ++i) loop.run(i);
   } else {
-    run_on_tbb(threads_, count, run_one, &loop);
+    run_on_threads(threads_, count, run_one, &loop);
   }
   loop.rethrow();
-}
-
-void Scheduler::run_in_arena(void (*body)(void*), void* context) const {
-  run_in_tbb_arena(callback_ != nullptr ? 1 : threads_, body, context);
 }
 
 }  // namespace sobb

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scheduler runs parallel loops: on TBB, on the caller's thread pool, or on the calling thread
-// alone.
+// Scheduler runs parallel loops: on TBB or the library's own threads, on the caller's thread pool,
+// or on the calling thread alone.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace sobb {
 // the lowest index, so that a message does not depend on the threads. Loops allocate nothing.
 class Scheduler {
  public:
-  // `threads` as in sobb_build_options: 1 is serial, 0 all that TBB gives. `callback` may be null.
+  // `threads` as in sobb_build_options: 1 is serial, 0 all that there are. `callback` may be null.
   Scheduler(uint32_t threads, const sobb_scheduler* callback)
       : threads_(threads), callback_(callback) {}
 
@@ -36,17 +36,8 @@ class Scheduler {
              [&](uint64_t range) { body(range * grain, std::min(count, (range + 1) * grain)); });
   }
 
-  // Runs body within a TBB arena of this scheduler's size (of one in serial mode and with a
-  // callback), for libraries that use TBB by themselves.
-  template <class Body>
-  void within_arena(Body&& body) const {
-    using Plain = std::remove_reference_t<Body>;
-    run_in_arena([](void* context) { (*static_cast<Plain*>(context))(); }, &body);
-  }
-
  private:
   void run(uint64_t count, void (*body)(void*, uint64_t), void* context) const;
-  void run_in_arena(void (*body)(void*), void* context) const;
 
   uint32_t threads_;
   const sobb_scheduler* callback_;

@@ -3,7 +3,7 @@
 
 // Makes the streaming state a type of known size, which needs no allocation.
 #define XXH_STATIC_LINKING_ONLY
-#include <xxhash.h>
+#include "base/xxh3.h"
 
 #include <algorithm>
 #include <cfloat>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/checksum.h"
 
-#include <xxhash.h>
+#include "base/xxh3.h"
 
 #include <algorithm>
 #include <array>

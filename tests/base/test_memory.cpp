@@ -72,17 +72,6 @@ TEST(Memory, LiftedLimitBindsNoMore) {
   memory.deallocate(memory.allocate(11, 1), 11, 1);
 }
 
-TEST(Memory, ForeignBytesCountAgainstTheLimitButAreNeverRefused) {
-  Memory memory(nullptr, 100);
-  EXPECT_TRUE(memory.count_foreign(60));
-  EXPECT_THROW(static_cast<void>(memory.allocate(41, 1)), Error);
-  EXPECT_FALSE(memory.count_foreign(50));
-  EXPECT_EQ(memory.held(), 110u);
-  EXPECT_TRUE(memory.count_foreign(-110));
-  EXPECT_EQ(memory.held(), 0u);
-  EXPECT_EQ(memory.peak(), 110u);
-}
-
 // A caller's allocator that counts, and fails on demand.
 struct CountingAllocator {
   uint64_t calls = 0;

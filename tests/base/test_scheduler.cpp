@@ -3,8 +3,6 @@
 #include "base/scheduler.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #include <xmmintrin.h>
 
 #include <atomic>
@@ -17,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/more_threads.h"
 #include "support/thread_pool.h"
 
 namespace sobb {
@@ -25,7 +24,7 @@ namespace {
 // Runs `check` with every kind of scheduler.
 template <class Check>
 void with_each_scheduler(const Check& check) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  const MoreThreads more(4);
   for (const uint32_t threads : {0, 1, 2, 3}) {
     SCOPED_TRACE("threads " + std::to_string(threads));
     check(Scheduler(threads, nullptr));
@@ -105,25 +104,8 @@ TEST(Scheduler, SerialRunsInOrderOnTheCallingThread) {
   EXPECT_EQ(order, (std::vector<uint64_t>{0, 1, 2, 3, 4}));
 }
 
-TEST(Scheduler, ArenaHasTheSizeAskedFor) {
-#ifdef SOBB_TBB_STAND_IN
-  GTEST_SKIP() << "in this build other libraries run on the calling thread";
-#endif
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
-  const auto arena_size = [](const Scheduler& scheduler) {
-    int size = 0;
-    scheduler.within_arena([&] { size = tbb::this_task_arena::max_concurrency(); });
-    return size;
-  };
-  EXPECT_EQ(arena_size(Scheduler(1, nullptr)), 1);
-  EXPECT_EQ(arena_size(Scheduler(3, nullptr)), 3);
-  test::ThreadPool pool(3);
-  const sobb_scheduler callback = pool.callback();
-  EXPECT_EQ(arena_size(Scheduler(3, &callback)), 1);
-}
-
 TEST(Scheduler, UsesNoMoreThreadsAtOnceThanAsked) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  const MoreThreads more(4);
   std::atomic<int> running{0};
   std::atomic<int> most{0};
   Scheduler(2, nullptr).for_each(200, [&](uint64_t) {

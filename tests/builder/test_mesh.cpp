@@ -3,7 +3,6 @@
 #include "builder/mesh.h"
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <cmath>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "support/more_threads.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -107,7 +107,7 @@ TEST(Mesh, VerticesThatNoTriangleUsesMayBeAnything) {
 }
 
 TEST(Mesh, ReportsTheFirstCulpritWhicheverThreadMeetsIt) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   Soup soup = identical_soup(500'000);
   soup.indices[3 * 70'001 + 1] = 3;
   soup.indices[3 * 70'002 + 1] = 4;
@@ -176,7 +176,7 @@ TEST(MeshSummary, CountsTrianglesWithoutArea) {
 }
 
 TEST(MeshSummary, IsTheSameForAnyThreadCount) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   const Soup soup = random_soup(9, 200'000);
   const MeshSummary one = summary_of(soup);
   for (const uint32_t threads : {2, 3, 8}) {

@@ -2,7 +2,6 @@
 // A table fitted to a mesh begins with the frame of scenes built at right angles, and is the
 // default set for others. It is unit and perpendicular, and the same for any number of threads.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "bounds/area.h"
 #include "bounds/directions/direction_table.h"
 #include "builder/scene_directions.h"
+#include "support/more_threads.h"
 #include "support/soups.h"
 
 namespace sobb::test {
@@ -85,7 +85,7 @@ TEST(SceneDirections, AreUnitAndBeginPerpendicular) {
 }
 
 TEST(SceneDirections, AreTheSameForAnyThreadCount) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   for (const Soup& soup : {turned_boxes(11, 14'000), sliver_soup(12, 40'000)}) {
     const auto one = directions_of(soup);
     for (const uint32_t threads : {2, 3, 8}) {

@@ -2,7 +2,6 @@
 // A topology has every triangle in a leaf, in boxes that hold all below them, and is the same for
 // any number of threads and any instruction set.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 #include "builder/sampled_triangle.h"
 #include "builder/topology/topology.h"
 #include "format/layout.h"
+#include "support/more_threads.h"
 #include "support/soups.h"
 #include "support/supported_isas.h"
 
@@ -303,7 +303,7 @@ TEST(Topology, IsTheSameForAnyInstructionSet) {
 }
 
 TEST(Topology, IsTheSameForAnyThreadCount) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   for (const Soup& soup : {random_soup(7, 30'000, 0.3), needle_soup(8, 6'000),
                            identical_soup(10'000), clustered_soup(26, 30'000)}) {
     for (const sobb_quality quality : kQualities) {

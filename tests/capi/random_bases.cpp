@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/xxh3.h"
 #include "capi/random_bases.h"
 
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>

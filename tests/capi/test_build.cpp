@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // sobb_build(): the same bytes however it is run, extreme input, references, information.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 #include <xmmintrin.h>
 
 #include <chrono>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "capi/handles.h"
+#include "support/more_threads.h"
 #include "support/sanitized.h"
 #include "support/supported_isas.h"
 #include "support/thread_pool.h"
@@ -36,7 +36,7 @@ struct Threads {
 
 TEST(Build, GivesTheSameBytesForAnyThreadsAndInstructionSet) {
   ThreadPool pool(3);
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   Threads threads;
   const std::vector<uint32_t> counts =
       kSanitized ? std::vector<uint32_t>{8} : std::vector<uint32_t>{1, 2, 3, 8, 0};
@@ -70,7 +70,7 @@ TEST(Build, GivesTheSameBytesForAnyThreadsAndInstructionSet) {
 }
 
 TEST(Build, DoesNotDependOnTheCallersFloatingPointControl) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   constexpr unsigned kOdd = 0x1F80 | _MM_FLUSH_ZERO_ON | 0x40 | _MM_ROUND_UP;
   for (const Soup& soup : {random_soup(1, 3'000, 0.8), placed(sliver_soup(2, 2'000), 1e-38, 0)}) {
     for (const uint32_t quality : kQualities) {

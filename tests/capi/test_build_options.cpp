@@ -2,7 +2,6 @@
 // sobb_build()'s options and failures: struct sizes, bad values, memory limit, allocator, progress
 // and cancel. Whatever fails leaves the output alone and nothing behind.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <atomic>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "capi/counting_allocator.h"
 #include "capi/handles.h"
+#include "support/more_threads.h"
 
 namespace sobb::test {
 namespace {
@@ -209,7 +209,7 @@ TEST(BuildMemory, AnAllocatorMayFailAtAnyCall) {
 }
 
 TEST(BuildMemory, KeepsTheLimitOnAnyThreads) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   const Soup soup = random_soup(10, 10'000);
   for (const uint32_t quality : kQualities) {
     sobb_build_options options = build_options(0, quality);
@@ -254,7 +254,7 @@ struct Watch {
 };
 
 TEST(BuildProgress, RisesFromNoughtToOneOnAnyThreads) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   const Soup soup = random_soup(11, 20'000);
   for (const uint32_t quality : kQualities) {
     for (const uint32_t threads : {1U, 8U}) {
@@ -272,7 +272,7 @@ TEST(BuildProgress, RisesFromNoughtToOneOnAnyThreads) {
 }
 
 TEST(BuildProgress, CancelsAtAnyCallOnAnyThreadsAndLeavesNothing) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   const Soup soup = random_soup(12, 6000);
   for (const uint32_t quality : kQualities) {
     for (const uint32_t threads : {1U, 4U}) {

@@ -2,11 +2,11 @@
 // Fitted tables through the C ABI: the oracle's bits, the same bytes however the build is run, and
 // what the options and the information say.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <cstddef>
 
 #include "capi/handles.h"
+#include "support/more_threads.h"
 #include "support/supported_isas.h"
 
 namespace sobb::test {
@@ -53,7 +53,7 @@ TEST_P(Fitted, ReturnsTheOraclesBits) {
 }
 
 TEST_P(Fitted, GivesTheSameBytesForAnyThreadsAndInstructionSet) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   for (const uint32_t quality : kQualities) {
     sobb_build_options options = fitted_options(quality);
     options.isa = SOBB_ISA_SSE4;

@@ -3,7 +3,6 @@
 // instruction set, call and thread count returns the same bits, and some equal brute force.
 // SOBB_TEST_RAYS is how many rays of each kind, at least (20,000 unless set).
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +15,7 @@
 
 #include "ray_sets.h"
 #include "sobb/scene.h"
+#include "support/more_threads.h"
 #include "support/supported_isas.h"
 
 namespace sobb::test {
@@ -139,7 +139,7 @@ TEST_P(Scenes, EqualBruteForce) {
 
 TEST_P(Scenes, AreTheSameEveryWay) {
   // More threads than this machine may have: three really run.
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
+  const MoreThreads limit(4);
   std::vector<uint8_t> occluded(rays_.size());
   for (const uint32_t k : {0U, 32U, 48U, 64U}) {
     for (const uint32_t width : {4U, 8U}) {

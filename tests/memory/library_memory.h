@@ -26,7 +26,7 @@ struct Holdings {
   void give_back(uint64_t size);
 };
 
-// Counts while it lives, one at a time. Embree, TBB and the test itself do not count.
+// Counts while it lives, one at a time. TBB and the test itself do not count.
 class LibraryMemory {
  public:
   static constexpr uint64_t kNever = UINT64_MAX;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caller's allocator sees every byte of a call and of its hierarchy, and the limit holds.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include "capi/handles.h"
 #include "format/temporary_folder.h"
 #include "memory/library_memory.h"
 #include "sobb/scene.h"
+#include "support/more_threads.h"
 
 namespace sobb::test {
 namespace {
@@ -16,7 +16,7 @@ constexpr uint32_t kQualities[] = {SOBB_QUALITY_LOW, SOBB_QUALITY_MEDIUM, SOBB_Q
 constexpr uint64_t kBookkeeping = 512;
 
 TEST(Accounts, AllocatorSeesEveryByte) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 4);
+  const MoreThreads more(4);
   const Soup soup = turned_boxes(1, 4000);
   const std::vector<sobb_ray> rays = mixed_rays(soup, 2, 5000);
   for (const uint32_t quality : kQualities) {
@@ -30,7 +30,7 @@ TEST(Accounts, AllocatorSeesEveryByte) {
         EXPECT_GE(memory.through_allocator.peak, memory.through_allocator.bytes);
         EXPECT_GE(info_of(built).peak_bytes, memory.through_allocator.peak);
         // Threads account for a block before they ask for it.
-        if (quality != SOBB_QUALITY_LOW && threads == 1) {
+        if (threads == 1) {
           EXPECT_EQ(info_of(built).peak_bytes, memory.through_allocator.peak);
         }
         trace(built, rays, trace_options(0, threads));

@@ -28,7 +28,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kThreads = 4;
-// What malloc, TBB and Embree keep for later may differ by so much.
+// What malloc and TBB keep for later may differ by so much.
 constexpr int64_t kSlack = int64_t{16} << 20;
 
 struct Totals {
@@ -163,7 +163,7 @@ int soak(double minutes, uint64_t seed) {
   Totals totals;
   const auto start = Clock::now();
   const std::chrono::duration<double, std::ratio<60>> length(minutes);
-  // The first tenth fills what malloc, TBB and Embree keep; what comes after may not add to it.
+  // The first tenth fills what malloc and TBB keep; what comes after may not add to it.
   const auto warm = start + std::chrono::duration_cast<Clock::duration>(length * 0.1);
   const auto end = start + std::chrono::duration_cast<Clock::duration>(length);
   std::printf("seed %" PRIu64 ", %d threads, %g minutes\n", seed, kThreads, minutes);

@@ -2,7 +2,6 @@
 // Everything at once: one hierarchy, and one pool of the host's, used from many threads while
 // others build, save, open and release.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <atomic>
 #include <functional>
@@ -11,6 +10,7 @@
 
 #include "capi/handles.h"
 #include "format/temporary_folder.h"
+#include "support/more_threads.h"
 #include "support/thread_pool.h"
 
 namespace sobb::test {
@@ -66,7 +66,7 @@ class AtOnce : public testing::Test {
     check(bytes_of(mine).size() == info_of(mine).bytes);
   }
 
-  const tbb::global_control more_{tbb::global_control::max_allowed_parallelism, 4};
+  const MoreThreads more_{4};
   ThreadPool pool_{3};
   const sobb_scheduler scheduler_ = pool_.callback();
   const TemporaryFolder folder_;

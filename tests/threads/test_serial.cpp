@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Serial mode starts no thread, and a host's scheduler starts none but its own: not for building,
-// Embree's builder included, not for saving, opening and tracing.
+// not for saving, opening and tracing.
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
 
 #include <mutex>
 #include <thread>
 
 #include "capi/handles.h"
 #include "format/temporary_folder.h"
+#include "support/more_threads.h"
 #include "support/thread_pool.h"
 #include "threads/process_threads.h"
 
@@ -75,7 +75,7 @@ void use_everything(uint32_t quality, uint32_t threads, const sobb_scheduler* sc
 }
 
 TEST(Serial, StartsNoThread) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   for (const uint32_t quality : kQualities) {
     Observer observer;
     use_everything(quality, 1, nullptr, observer);
@@ -86,7 +86,7 @@ TEST(Serial, StartsNoThread) {
 }
 
 TEST(HostScheduler, IsAllThatRuns) {
-  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  const MoreThreads more(8);
   ThreadPool pool(3);
   const sobb_scheduler scheduler = pool.callback();
   for (const uint32_t quality : kQualities) {

@@ -24,7 +24,6 @@ void add_context(const Workbench& workbench) {
   }
   add("brute_force_rays", std::to_string(workbench.brute_force_rays()));
   add("sobb", library_version());
-  add("embree", embree_version());
   add("processor", processor());
 }
 

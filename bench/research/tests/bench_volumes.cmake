@@ -35,7 +35,7 @@ foreach(layout binary wide)
 endforeach()
 
 file(READ ${OUT} report)
-foreach(key scene triangles view size threads isa sobb embree processor primary_rays secondary_rays
+foreach(key scene triangles view size threads isa sobb processor primary_rays secondary_rays
     brute_force_rays)
   string(JSON value GET "${report}" context ${key})
 endforeach()

@@ -193,8 +193,8 @@ SOBB_NODISCARD SOBB_API sobb_status sobb_resolve_isa(sobb_isa isa, sobb_isa* out
 /**
  * The caller's allocator. Every allocation of the library on behalf of a call that was given one
  * goes through it, as do those that the resulting hierarchy keeps and those of tracing it, but for
- * some hundred bytes of bookkeeping. (Embree, which builds low quality, allocates by itself;
- * its bytes are counted against the memory limit.) Called from several threads at once.
+ * some hundred bytes of bookkeeping, and what TBB keeps for its threads.
+ * Called from several threads at once.
  */
 typedef struct sobb_allocator {
   void* user;
@@ -207,8 +207,8 @@ typedef struct sobb_allocator {
 /**
  * The caller's thread pool. `parallel_for` runs body(context, i) once for each i < count, on any
  * threads, in any order, and returns when all are done. Bodies do not throw and do not block on
- * each other. A build with a scheduler starts no thread of its own: Embree, which builds low
- * quality, then runs on the calling thread.
+ * each other.
+ * A build with a scheduler starts no thread of its own.
  */
 typedef struct sobb_scheduler {
   void* user;
@@ -251,7 +251,7 @@ typedef enum sobb_volume {
 /** The topology builder's effort. */
 typedef enum sobb_quality {
   SOBB_QUALITY_DEFAULT = 0, /**< medium */
-  SOBB_QUALITY_LOW = 1,     /**< Morton order, by Embree */
+  SOBB_QUALITY_LOW = 1,     /**< a grid in Morton order, then splits in the middle */
   SOBB_QUALITY_MEDIUM = 2,  /**< binned surface area heuristic, then a little reinsertion */
   SOBB_QUALITY_HIGH = 3     /**< with spatial splits or without, whichever is cheaper; more of it */
 } sobb_quality;
@@ -285,11 +285,11 @@ typedef struct sobb_build_options {
   uint32_t quality;      /**< a sobb_quality */
   uint32_t strategy;     /**< a sobb_strategy */
   uint32_t width;        /**< children a node: 4 or 8 (default) */
-  uint32_t threads;      /**< at most this many; 1 starts none; 0 as many as TBB gives */
+  uint32_t threads;      /**< at most this many; 1 starts none; 0 as many as there are */
   uint32_t isa;          /**< a sobb_isa; never changes the result */
-  uint64_t memory_limit; /**< bytes held at once at most, with Embree's; 0 for none */
+  uint64_t memory_limit; /**< bytes held at once at most; 0 for none */
   const sobb_allocator* allocator; /**< copied; NULL for the library's own */
-  const sobb_scheduler* scheduler; /**< NULL for TBB */
+  const sobb_scheduler* scheduler; /**< NULL for the library's */
   /**
    * Called now and then, from any thread but never from two at once, with the fraction done
    * (0 to 1, not falling). A non-zero return cancels: SOBB_ERROR_CANCELLED. NULL for none.
@@ -415,7 +415,7 @@ typedef struct sobb_info {
   double collapse_ms; /**< binary to wide */
   double volume_ms;   /**< k-DOPs, volumes, nodes and triangle blocks */
   double total_ms;
-  uint64_t peak_bytes; /**< the most held at once, with Embree's */
+  uint64_t peak_bytes; /**< the most held at once */
   uint32_t table;      /**< SOBB_TABLE_SPREAD for the library's own directions, else _FITTED */
   uint32_t reserved;   /**< zero */
 } sobb_info;
@@ -476,11 +476,11 @@ enum {
 typedef struct sobb_trace_options {
   uint32_t struct_size;
   uint32_t flags;                  /**< SOBB_TRACE_ bits; never change the result */
-  uint32_t threads;                /**< at most this many; 1 starts none; 0 as many as TBB gives */
+  uint32_t threads;                /**< at most this many; 1 starts none; 0 as many as there are */
   uint32_t isa;                    /**< a sobb_isa; never changes the result */
   sobb_count* counts;              /**< one per ray, or NULL; asks for the single-ray kernel */
   uint64_t* invalid_rays;          /**< receives how many rays were SOBB_INVALID, or NULL */
-  const sobb_scheduler* scheduler; /**< NULL for TBB */
+  const sobb_scheduler* scheduler; /**< NULL for the library's */
 } sobb_trace_options;
 #define SOBB_TRACE_OPTIONS_INIT \
   { sizeof(sobb_trace_options), 0, 0, 0, NULL, NULL, NULL }

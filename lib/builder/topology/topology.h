@@ -2,9 +2,9 @@
 // The binary hierarchy over the triangles' boxes along the axes of a frame. It says which triangles
 // lie together; volumes come later.
 //
-// The room `builder/topology` chooses a binary hierarchy: embree_topology makes low quality,
-// topology_builder the others with the kernels of `builder/sah`, reinsertion improves what that
-// made. It knows `builder/boxes` and `builder/sah`; `builder/wide` takes the hierarchy from here.
+// The room `builder/topology` chooses a binary hierarchy: morton_topology makes low quality,
+// topology_builder the others, both with the kernels of `builder/sah`; reinsertion improves what
+// the latter made. It knows `builder/boxes` and `builder/sah`; `builder/wide` takes the hierarchy from here.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace sobb {
 
-// Embree's builder makes low quality, the library's own the others.
+// A whole binary hierarchy of the quality asked for.
 class Topology {
  public:
   // Progress runs from 0 to `progress_end`. Errors: OUT_OF_MEMORY, MEMORY_LIMIT, CANCELLED,

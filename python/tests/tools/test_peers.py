@@ -75,6 +75,15 @@ def test_without_embrees_array_call():
     assert {f.embree_row for f in found if f.quality == "high"} == {"embree_high/packet"}
 
 
+def test_without_embree():
+    with pytest.raises(OSError, match="not installed"):
+        made_up(
+            without=[
+                f"{method}/{call}" for method in METHODS if "embree" in method for call in CALLS
+            ]
+        )
+
+
 def test_entries():
     for figure in made_up():
         entry = figure.entry(2, "avx2")

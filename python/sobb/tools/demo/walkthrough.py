@@ -86,20 +86,24 @@ def _compare(source: str, cameras: str | None, triangles: int) -> None:
         rows = bench.run("sobb_bench", arguments).medians
     table = _table(rows, triangles)
     table.title = f"{source}: {threads} threads, {resolve_isa()}"
-    table.caption = (
+    caption = (
         "Areas are relative to that of the scene's box. Volumes and triangles are those that "
         "single rays test. Mrays/s are by the fastest call: of one ray, of a packet or of an array."
     )
+    if f"build/{_COLUMNS['Embree']}" not in rows:
+        caption += " Embree is not installed, so it has no column."
+    table.caption = caption
     Console(width=76, highlight=False).print(table)
 
 
 def _table(rows: bench.Rows, triangles: int) -> Table:
-    table = Table("", *_COLUMNS, box=box.SIMPLE_HEAD, title_style="bold", caption_justify="left")
+    columns = {title: name for title, name in _COLUMNS.items() if f"build/{name}" in rows}
+    table = Table("", *columns, box=box.SIMPLE_HEAD, title_style="bold", caption_justify="left")
     for column in table.columns[1:]:
         column.justify = "right"
 
     def add(title: str, cell: Callable[[str], float | None], digits: int) -> None:
-        values = (cell(method) for method in _COLUMNS.values())
+        values = (cell(method) for method in columns.values())
         table.add_row(title, *("–" if v is None else f"{v:,.{digits}f}" for v in values))
 
     def built(counter: str) -> Callable[[str], float | None]:

@@ -32,7 +32,6 @@ _CONTEXT = {
     "isa": "isa",
     "processor": "processor",
     "sobb": "sobb_version",
-    "embree": "embree_version",
     "date": "date",
 }
 

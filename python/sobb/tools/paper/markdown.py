@@ -26,7 +26,7 @@ def text(scenes: Sequence[Measured]) -> str:
     parts = [
         "# Bounding volumes compared",
         f"{context['processor']}, {context['threads']} threads, {context['isa']}; "
-        f"sobb {context['sobb']}, Embree {context['embree']}; {context['date'][:10]}. "
+        f"sobb {context['sobb']}; {context['date'][:10]}. "
         f"{_views(context)}{_spread(scenes)}",
         _HOW.format(**context),
         "![Speed of secondary rays](paper.png)",

@@ -81,8 +81,10 @@ def row_filter() -> str:
 
 
 def figures(source: Source, report: Report) -> list[Figure]:
-    """Returns all figures of a scene."""
+    """Returns all figures of a scene. Raises OSError where the program found no Embree."""
     rows = report.medians
+    if not any("/embree_" in row for row in rows):
+        raise OSError("sobb_bench measured no row of Embree's, which is not installed")
     found = []
     for rays in RAYS:
         robust, _ = _fastest(rows, rays, ROBUST)

@@ -1,48 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/tbb_threads.h"
-
-#include <dlfcn.h>
 #include <oneapi/tbb/cache_aligned_allocator.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
-#include <pthread.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <list>
 #include <mutex>
 #include <new>
 
+#include "base/threads/threads.h"
+#include "base/threads/workers.h"
+
 namespace sobb {
 namespace {
-
-// Set in the child of a fork whose parent had started workers. The child has none of them, and one
-// may have held a lock of TBB's, so the child runs its loops on the calling thread.
-std::atomic<bool> workers_are_gone{false};
-
-// Keeps the shared object that has this code, and so TBB below it, in the process for good. TBB's
-// workers live on when a loop has ended, and run TBB's code, for a moment also the end of a loop's:
-// a host that unloaded the last user of TBB would take the code from under them. They cannot be
-// waited for, since the host may use TBB as well.
-void stay_loaded() {
-  static const char here = 0;
-  Dl_info object;
-  // A program itself is not found by its name, and nobody unloads it.
-  if (dladdr(&here, &object) != 0 && object.dli_fname != nullptr) {
-    dlopen(object.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_NODELETE);
-  }
-}
-
-// To be called before TBB may start a worker.
-void prepare_for_workers() {
-  static std::once_flag prepared;
-  std::call_once(prepared, [] {
-    stay_loaded();
-    pthread_atfork(nullptr, nullptr, [] { workers_are_gone = true; });
-  });
-}
 
 struct Arena {
   explicit Arena(int threads) : size(threads), arena(threads) {}
@@ -102,36 +74,26 @@ class BorrowedArena {
   Arenas taken_;
 };
 
-template <class Body>
-void within_arena(uint32_t threads, const Body& body) {
-  if (workers_are_gone) threads = 1;
-  if (threads != 1) prepare_for_workers();
-  if (threads == 0) {
-    body();
+}  // namespace
+
+void run_on_threads(uint32_t threads, uint64_t count, void (*body)(void*, uint64_t),
+                    void* context) {
+  if (workers_are_gone()) threads = 1;
+  if (threads == 1) {
+    for (uint64_t i = 0; i < count; ++i) body(context, i);
     return;
   }
+  prepare_for_workers();
+  const auto run = [&] {
+    tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) { body(context, i); });
+  };
+  if (threads == 0) return run();
   // TBB never runs more threads than its limit, complains about a larger arena, and allocates all
   // of an arena's slots.
   const size_t limit =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   BorrowedArena arena(static_cast<int>(std::min<size_t>(threads, limit)));
-  (*arena).execute(body);
-}
-
-}  // namespace
-
-void run_on_tbb(uint32_t threads, uint64_t count, void (*body)(void*, uint64_t), void* context) {
-  if (workers_are_gone) {
-    for (uint64_t i = 0; i < count; ++i) body(context, i);
-    return;
-  }
-  within_arena(threads, [&] {
-    tbb::parallel_for(uint64_t{0}, count, [&](uint64_t i) { body(context, i); });
-  });
-}
-
-void run_in_tbb_arena(uint32_t threads, void (*body)(void*), void* context) {
-  within_arena(threads, [&] { body(context); });
+  (*arena).execute(run);
 }
 
 }  // namespace sobb
