@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scheduler: every index once, on TBB, on a caller's pool and serially; exceptions; arenas.
+// Scheduler: every index once, on TBB, on a caller's pool and serially; exceptions.
 #include "base/scheduler.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ namespace {
 // Runs `check` with every kind of scheduler.
 template <class Check>
 void with_each_scheduler(const Check& check) {
-  const MoreThreads more(4);
+  const test::MoreThreads more(4);
   for (const uint32_t threads : {0, 1, 2, 3}) {
     SCOPED_TRACE("threads " + std::to_string(threads));
     check(Scheduler(threads, nullptr));
@@ -105,7 +105,7 @@ TEST(Scheduler, SerialRunsInOrderOnTheCallingThread) {
 }
 
 TEST(Scheduler, UsesNoMoreThreadsAtOnceThanAsked) {
-  const MoreThreads more(4);
+  const test::MoreThreads more(4);
   std::atomic<int> running{0};
   std::atomic<int> most{0};
   Scheduler(2, nullptr).for_each(200, [&](uint64_t) {

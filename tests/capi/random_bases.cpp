@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "base/xxh3.h"
 #include "capi/random_bases.h"
-
+#include "base/xxh3.h"
 
 #include <algorithm>
 #include <cmath>
