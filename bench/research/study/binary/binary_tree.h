@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "builder/topology/topology.h"
-
 namespace sobb::study {
 
 // A triangle in a leaf.
@@ -27,8 +25,6 @@ struct BinaryTree {
   std::vector<Reference> references;  // in the order of the leaves
   std::vector<BinaryNode> nodes;      // depth first: a node, its first child's, its second child's
 };
-
-BinaryTree flatten(const Topology& topology);
 
 // Copies the tree and makes the nodes marked in `leaf` leaves: what lies below them is left out.
 BinaryTree cut(const BinaryTree& tree, const std::vector<bool>& leaf);

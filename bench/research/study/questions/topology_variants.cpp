@@ -3,9 +3,8 @@
 
 #include <utility>
 
-#include "base/memory.h"
-#include "builder/topology/topology.h"
 #include "stopwatch.h"
+#include "study/binary/embree_tree.h"
 #include "study/binary/fibre_split.h"
 #include "study/binary/leaf_choice.h"
 #include "study/binary/sah_builder.h"
@@ -32,25 +31,9 @@ class Variants {
     const SahSettings by_sobb{SOBB_VOLUME_SOBB};
     const uint32_t all = measure_.direction_count();
 
-    const auto embree = timed([&] { return flatten_embree(); });
-    binary("embree", "embree", embree);
-    wide("embree", "embree", embree, SOBB_VOLUME_AABB);
-    wide("embree", "embree", embree, SOBB_VOLUME_SOBB);
-    exact("embree", "embree", embree, SOBB_VOLUME_AABB, Leaves::kKept);
-    exact("embree", "embree", embree, SOBB_VOLUME_SOBB, Leaves::kKept);
-    sharing("embree", "embree", embree, Leaves::kKept);
-
-    auto fine = timed([&] {
-      return SahBuilder(measure_, tangents_, {SOBB_VOLUME_AABB, 3, false, 1})
-          .split_leaves(embree.tree);
-    });
-    fine.ms += embree.ms;
-    chosen_leaves("embree", fine, SOBB_VOLUME_AABB);
-    chosen_leaves("embree", fine, SOBB_VOLUME_SOBB);
-    exact("embree", "aabb", fine, SOBB_VOLUME_AABB, Leaves::kChosen);
-    exact("embree", "sobb", fine, SOBB_VOLUME_SOBB, Leaves::kChosen);
-    sharing("embree", "sobb", fine, Leaves::kChosen);
-
+#ifdef SOBB_EMBREE_MAJOR
+    visit_embree();
+#endif
     built("aabb", by_aabb);
     built("sobb", by_sobb);
     built("sobb-all-directions", {SOBB_VOLUME_SOBB, all});
@@ -72,12 +55,28 @@ class Variants {
     return result;
   }
 
-  BinaryTree flatten_embree() const {
-    Memory memory;
-    Progress progress(nullptr, nullptr);
-    const Topology topology(mesh_, SOBB_QUALITY_MEDIUM, Scheduler(1, nullptr), memory, progress, 1);
-    return flatten(topology);
+#ifdef SOBB_EMBREE_MAJOR
+  void visit_embree() {
+    const auto embree = timed([&] { return embree_tree(mesh_); });
+    binary("embree", "embree", embree);
+    wide("embree", "embree", embree, SOBB_VOLUME_AABB);
+    wide("embree", "embree", embree, SOBB_VOLUME_SOBB);
+    exact("embree", "embree", embree, SOBB_VOLUME_AABB, Leaves::kKept);
+    exact("embree", "embree", embree, SOBB_VOLUME_SOBB, Leaves::kKept);
+    sharing("embree", "embree", embree, Leaves::kKept);
+
+    auto fine = timed([&] {
+      return SahBuilder(measure_, tangents_, {SOBB_VOLUME_AABB, 3, false, 1})
+          .split_leaves(embree.tree);
+    });
+    fine.ms += embree.ms;
+    chosen_leaves("embree", fine, SOBB_VOLUME_AABB);
+    chosen_leaves("embree", fine, SOBB_VOLUME_SOBB);
+    exact("embree", "aabb", fine, SOBB_VOLUME_AABB, Leaves::kChosen);
+    exact("embree", "sobb", fine, SOBB_VOLUME_SOBB, Leaves::kChosen);
+    sharing("embree", "sobb", fine, Leaves::kChosen);
   }
+#endif
 
   BinaryTree build(const SahSettings& settings) const {
     BinaryTree tree;

@@ -27,8 +27,8 @@ struct Variant {
   double collapse_ms;  // processor time of areas and wide nodes, and of leaves chosen with them
 };
 
-// Makes the variants one after the other. The splits named "embree" are the library's own: Embree's
-// builder made them when docs/data/study-topologies.json was measured.
+// Makes the variants one after the other. Those whose splits are named "embree" are left out in
+// builds without Embree.
 void each_variant(const Mesh& mesh, const MeshSummary& summary, std::pmr::memory_resource& memory,
                   const std::function<void(const Variant&)>& visit);
 
