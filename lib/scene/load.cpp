@@ -32,13 +32,25 @@ void load_builtin(const std::string& source, const char* views_path, SceneWriter
   if (scene.views.empty()) scene.views = std::move(views);
 }
 
+// Other programs call files cameras.json too: what cannot be read as ours is no fault of the scene.
+std::vector<sobb_view> views_beside(const std::string& path, const std::string& stem,
+                                    SceneWriter& writer) {
+  try {
+    return read_views(path, stem, writer);
+  } catch (const Error& error) {
+    if (error.status == SOBB_ERROR_CANCELLED) throw;
+    writer.note(SOBB_NOTE_VIEWS, [&error] { return std::string(error.what()); });
+    return {};
+  }
+}
+
 // Views are those of the first of these that has any: the file given, the file beside the scene,
 // the scene's cameras; else the default one.
 void find_views(const PathParts& path, const char* views_path, SceneWriter& writer, Scene& scene) {
   if (views_path != nullptr) scene.views = read_views(views_path, path.stem, writer);
   const std::string beside = path.folder + "cameras.json";
   if (scene.views.empty() && file_exists(beside)) {
-    scene.views = read_views(beside, path.stem, writer);
+    scene.views = views_beside(beside, path.stem, writer);
   }
   if (scene.views.empty()) scene.views = camera_views(writer.cameras(), half_diagonal(scene));
   if (!scene.views.empty()) return;

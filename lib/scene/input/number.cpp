@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <charconv>
 #include <cmath>
+#include <string>
 
 #include "scene/input/ascii.h"
 
@@ -62,11 +63,36 @@ std::errc parse_integer(std::string_view word, uint64_t& value) {
   return parse_integer_as(word, value);
 }
 
+namespace {
+
+// The notations of numbers that std::from_chars does not take: an exponent of Fortran's, as in
+// 1.5D+00, and what Microsoft's C once wrote for not-a-number and infinity, as in -1.#IND.
+bool parse_other_notation(std::string_view word, float& value) {
+  constexpr size_t kLongest = 64;
+  if (word.size() > kLongest) return false;
+  std::string number;
+  for (const char c : word) number += ascii_lower(c);
+  const size_t hash = number.find(".#");
+  if (hash != std::string::npos) {
+    const bool infinite = number.compare(hash, 5, ".#inf") == 0;
+    number = infinite ? number.front() == '-' ? "-inf" : "inf" : "nan";
+    return parse_number(number, value);
+  }
+  const size_t exponent = number.find('d');
+  if (exponent == std::string::npos || exponent == 0) return false;
+  number[exponent] = 'e';
+  return number.find('d') == std::string::npos && parse_number(number, value);
+}
+
+}  // namespace
+
 bool parse_number(std::string_view word, float& value) {
   const std::string_view number = without_plus(word);
   const char* end = number.data() + number.size();
   const auto narrow = std::from_chars(number.data(), end, value);
-  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) return false;
+  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) {
+    return parse_other_notation(word, value);
+  }
   if (narrow.ec == std::errc()) return true;
   double wide = 0;
   if (std::from_chars(number.data(), end, wide).ec == std::errc::result_out_of_range) {

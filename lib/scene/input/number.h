@@ -8,7 +8,8 @@
 
 namespace sobb {
 
-// Parses a word in any notation of C's but hexadecimal, with nan and inf; false where it is no
+// Parses a word in any notation of C's but hexadecimal, with nan and inf; exponents may be written
+// with D, as Fortran does, and nan and inf as Microsoft's C once did (1.#QNAN). False where it is no
 // number. Beyond float's range: the largest float, or zero.
 bool parse_number(std::string_view word, float& value);
 

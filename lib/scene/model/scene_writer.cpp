@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <utility>
 
 #include "base/error.h"
 #include "scene/model/measure.h"
+#include "scene/model/polygon.h"
 #include "scene/model/utf8.h"
 
 namespace sobb {
@@ -22,12 +24,25 @@ constexpr uint64_t kReportEvery = 1 << 16;
 // The share of progress that reading takes; the rest is measuring what was read.
 constexpr double kReadShare = 0.9;
 
+// Clipping ears looks at 165 corners per corner in the worst polygons measured, so long as they do
+// not cross themselves. One that does is given up at this limit. It is cancelled between turns.
+constexpr uint64_t kVisitsPerCorner = 1024;
+constexpr uint64_t kVisitsPerTurn = 1 << 12;
+
 // What a mesh takes in an array that doubles: the old array lives until it is moved.
 constexpr uint64_t kMeshBytes = 3 * sizeof(SceneMesh);
 
 // The size to which a full array of triples grows: half as much again, so that growing stays cheap.
 uint64_t grown_size(uint64_t size, uint64_t max_triples) {
   return std::min(3 * max_triples, std::max<uint64_t>(3 * 64, size + size / 2 + 3));
+}
+
+std::string unusable_vertex(float x, float y, float z) {
+  const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
+  char text[100];
+  std::snprintf(text, sizeof text, "vertex (%g, %g, %g) is %s", double(x), double(y), double(z),
+                finite ? "beyond 2^60" : "not finite");
+  return text;
 }
 
 }  // namespace
@@ -94,24 +109,79 @@ void SceneWriter::end_mesh() {
   scene_.meshes.pop_back();
 }
 
-void SceneWriter::refuse_vertex(float x, float y, float z, const std::string& place) const {
-  const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-  fail(finite ? SOBB_ERROR_TOO_LARGE : SOBB_ERROR_NOT_FINITE, "%s: %s: vertex (%g, %g, %g) is %s",
-       name_.c_str(), place.c_str(), double(x), double(y), double(z),
-       finite ? "beyond 2^60" : "not finite");
+void SceneWriter::note_unusable(float x, float y, float z, const std::string& place) {
+  ++unusable_;
+  note(SOBB_NOTE_UNUSED_VERTEX, [&] { return place + ": " + unusable_vertex(x, y, z); });
+}
+
+bool SceneWriter::is_usable(uint64_t vertex) const {
+  const float* xyz = &scene_.vertices[3 * vertex];
+  return in_range(xyz[0]) && in_range(xyz[1]) && in_range(xyz[2]);
+}
+
+bool SceneWriter::are_usable(std::span<const uint64_t> corners) const {
+  return std::all_of(corners.begin(), corners.end(), [this](uint64_t corner) {
+    return corner >= vertex_count() || is_usable(corner);
+  });
+}
+
+// What reads a scene need not look whether a vertex is in range.
+void SceneWriter::clear_unusable() {
+  for (uint64_t vertex = 0; unusable_ > 0 && vertex < vertex_count(); ++vertex) {
+    if (!is_usable(vertex)) std::fill_n(&scene_.vertices[3 * vertex], 3, 0.0F);
+  }
+}
+
+std::string SceneWriter::short_face(size_t corners, const std::string& place) {
+  return place + ": a face of " + std::to_string(corners) + (corners == 1 ? " corner" : " corners");
 }
 
 void SceneWriter::refuse_polygon(std::span<const uint64_t> corners,
                                  const std::string& place) const {
-  if (corners.size() < 3) {
-    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s: a face of %zu corners", name_.c_str(), place.c_str(),
-         corners.size());
-  }
   size_t i = 0;
-  while (corners[i] < vertex_count()) ++i;
+  while (corners[i] < vertex_count() && is_usable(corners[i])) ++i;
+  if (corners[i] < vertex_count()) {
+    const float* xyz = &scene_.vertices[3 * corners[i]];
+    const bool finite = std::all_of(xyz, xyz + 3, [](float x) { return std::isfinite(x); });
+    fail(finite ? SOBB_ERROR_TOO_LARGE : SOBB_ERROR_NOT_FINITE, "%s: %s: corner %zu: %s",
+         name_.c_str(), place.c_str(), i, unusable_vertex(xyz[0], xyz[1], xyz[2]).c_str());
+  }
   fail(SOBB_ERROR_INDEX, "%s: %s: corner %zu names vertex %llu of %llu", name_.c_str(),
        place.c_str(), i, static_cast<unsigned long long>(corners[i]),
        static_cast<unsigned long long>(vertex_count()));
+}
+
+void SceneWriter::add_larger_polygon(std::span<const uint64_t> corners) {
+  points_.clear();
+  if (points_.capacity() < corners.size()) {
+    const uint64_t old = points_.capacity() * sizeof(Vec3);
+    reserve(points_, std::max(corners.size(), 2 * points_.capacity()));
+    held_ += points_.capacity() * sizeof(Vec3) - old;
+  }
+  for (const uint64_t corner : corners) points_.push_back(widen(&scene_.vertices[3 * corner]));
+  if (fan_covers(points_)) {
+    for (size_t i = 2; i < corners.size(); ++i) add_triangle(corners[0], corners[i - 1], corners[i]);
+  } else if (corners.size() == 4) {
+    // The fan about the second corner is the only other way.
+    add_triangle(corners[1], corners[2], corners[3]);
+    add_triangle(corners[1], corners[3], corners[0]);
+  } else {
+    add_ears(corners);
+  }
+}
+
+void SceneWriter::add_ears(std::span<const uint64_t> corners) {
+  const uint64_t bytes = ear_clipping_bytes(corners.size());
+  hold(bytes);
+  uint64_t turns = corners.size() * kVisitsPerCorner / kVisitsPerTurn + 1;
+  const std::vector<uint32_t> triangles = clip_ears(points_, [&]() -> size_t {
+    work(kVisitsPerTurn);
+    return turns-- > 0 ? kVisitsPerTurn : 0;
+  });
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    add_triangle(corners[triangles[i]], corners[triangles[i + 1]], corners[triangles[i + 2]]);
+  }
+  held_ -= bytes;
 }
 
 // Makes room for `size` elements where the limit allows it. The old elements live until they are
@@ -170,6 +240,7 @@ void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
 void SceneWriter::finish() {
   end_mesh();
   if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
+  clear_unusable();
   measure(scene_, progress_, kReadShare);
 }
 

@@ -50,13 +50,14 @@ class SceneWriter {
 
   // Adds a vertex. `place` says where in the source it is, as in "line 12" or "mesh 3, vertex 7":
   // text, or, where making that for every vertex would cost too much, a function that makes it for
-  // an error. Errors: NOT_FINITE, TOO_LARGE (beyond 2^60), MEMORY_LIMIT.
+  // an error. A vertex that is not finite or beyond 2^60 is kept until finish(), but no polygon may
+  // use it. Error MEMORY_LIMIT.
   void add_vertex(float x, float y, float z, const char* place) {
     add_vertex(x, y, z, [place] { return std::string(place); });
   }
   template <std::invocable Place>
   void add_vertex(float x, float y, float z, const Place& place) {
-    if (!in_range(x) || !in_range(y) || !in_range(z)) refuse_vertex(x, y, z, place());
+    if (!in_range(x) || !in_range(y) || !in_range(z)) note_unusable(x, y, z, place());
     work(1);
     std::vector<float>& vertices = scene_.vertices;
     if (vertices.capacity() - vertices.size() < 3) grow_vertices();
@@ -67,24 +68,29 @@ class SceneWriter {
   // made absolute by the reader.
   uint64_t vertex_count() const { return scene_.vertices.size() / 3; }
 
-  // Adds a polygon of at least three corners as a fan about its first: corners are indices into
-  // all vertices so far. `place` as above. Errors: INDEX (corner and place named), SCENE_SYNTAX
-  // for fewer than three corners, TOO_LARGE, MEMORY_LIMIT.
+  // Adds a polygon: corners are indices into all vertices so far. It becomes as many triangles as
+  // it has corners, less two: the fan about its first corner where that covers it, others where not
+  // (polygon.h). One of fewer than three corners is passed over with a note. `place` as above.
+  // Errors: INDEX, and NOT_FINITE or TOO_LARGE for a vertex that no triangle may use (corner, vertex
+  // and place named); TOO_LARGE for too many triangles; MEMORY_LIMIT.
   void add_polygon(std::span<const uint64_t> corners, const char* place) {
     add_polygon(corners, [place] { return std::string(place); });
   }
   template <std::invocable Place>
   void add_polygon(std::span<const uint64_t> corners, const Place& place) {
+    if (corners.size() < 3) {
+      note(SOBB_NOTE_SHORT_FACE, [&] { return short_face(corners.size(), place()); });
+      return;
+    }
     const uint64_t vertices = vertex_count();
-    bool good = corners.size() >= 3;
+    bool good = unusable_ == 0 || are_usable(corners);
     for (const uint64_t corner : corners) good &= corner < vertices;
     if (!good) refuse_polygon(corners, place());
     work(corners.size());
-    std::vector<uint32_t>& indices = scene_.indices;
-    for (size_t i = 2; i < corners.size(); ++i) {
-      if (indices.capacity() - indices.size() < 3) grow_indices();
-      indices.insert(indices.end(),
-                     {uint32_t(corners[0]), uint32_t(corners[i - 1]), uint32_t(corners[i])});
+    if (corners.size() == 3) {
+      add_triangle(corners[0], corners[1], corners[2]);
+    } else {
+      add_larger_polygon(corners);
     }
   }
 
@@ -111,8 +117,8 @@ class SceneWriter {
   void add_camera(const SceneCamera& camera) { cameras_.push_back(camera); }
   const std::vector<SceneCamera>& cameras() const { return cameras_; }
 
-  // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds. Error
-  // EMPTY where no triangle came.
+  // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds, and
+  // moves vertices that no triangle may use to the origin. Error EMPTY where no triangle came.
   void finish();
 
  private:
@@ -120,7 +126,19 @@ class SceneWriter {
     return x >= -kLargestCoordinate && x <= kLargestCoordinate;
   }
 
-  [[noreturn]] void refuse_vertex(float x, float y, float z, const std::string& place) const;
+  void add_triangle(uint64_t a, uint64_t b, uint64_t c) {
+    std::vector<uint32_t>& indices = scene_.indices;
+    if (indices.capacity() - indices.size() < 3) grow_indices();
+    indices.insert(indices.end(), {uint32_t(a), uint32_t(b), uint32_t(c)});
+  }
+
+  void add_larger_polygon(std::span<const uint64_t> corners);
+  void add_ears(std::span<const uint64_t> corners);
+  void note_unusable(float x, float y, float z, const std::string& place);
+  bool is_usable(uint64_t vertex) const;
+  bool are_usable(std::span<const uint64_t> corners) const;
+  void clear_unusable();
+  static std::string short_face(size_t corners, const std::string& place);
   [[noreturn]] void refuse_polygon(std::span<const uint64_t> corners,
                                    const std::string& place) const;
   [[noreturn]] void refuse_memory(uint64_t bytes) const;
@@ -136,6 +154,8 @@ class SceneWriter {
   uint64_t memory_limit_;
   uint64_t held_ = 0;
   Scene& scene_;
+  uint64_t unusable_ = 0;     // vertices that no polygon may use
+  std::vector<Vec3> points_;  // of the polygon that is split
   std::vector<SceneCamera> cameras_;
   Progress* progress_;
   double reached_ = 0;

@@ -18,31 +18,41 @@ constexpr int kMaxVertexNumbers = 7;  // x, y, z, a weight and a colour
 class ObjReader {
  public:
   ObjReader(std::string_view bytes, SceneWriter& writer)
-      : text_(bytes, writer.name().c_str(), &writer),
-        writer_(writer),
-        first_vertex_(writer.vertex_count()) {}
+      : text_(bytes, writer), writer_(writer), first_vertex_(writer.vertex_count()) {
+    text_.refuse_wide_characters();
+  }
 
   void read() {
     while (text_.next_line()) {
       const std::string_view statement = text_.word();
-      if (statement == "v") {
-        read_vertex();
-      } else if (statement == "f" || statement == "fo") {  // fo: faces of version 2
+      if (is_word(statement, "v")) {
+        if (vertices_ == vertices_read()) read_vertex(text_);
+        ++vertices_;
+      } else if (is_word(statement, "f") || is_word(statement, "fo")) {  // fo: of version 2
         read_face();
-      } else if (statement == "o" || statement == "g") {
+      } else if (is_word(statement, "o") || is_word(statement, "g")) {
         writer_.begin_mesh(std::string(text_.rest_of_line()));
       }
     }
   }
 
  private:
-  void read_vertex() {
-    const auto [x, y, z] = text_.position();
-    for (int i = 3; i < kMaxVertexNumbers && !text_.at_line_end(); ++i) {
-      text_.number("a weight or a colour");
+  uint64_t vertices_read() const { return writer_.vertex_count() - first_vertex_; }
+
+  void read_vertex(TextReader& text) {
+    const auto [x, y, z] = text.position();
+    for (int i = 3; i < kMaxVertexNumbers; ++i) text.word();
+    text.pass_surplus();
+    writer_.add_vertex(x, y, z, [&text] { return text.place(); });
+  }
+
+  // Reads the vertices of all statements to come, for a face that stands before its own.
+  void read_all_vertices() {
+    if (vertices_ < vertices_read()) return;
+    TextReader ahead = text_;
+    while (ahead.next_line()) {
+      if (is_word(ahead.word(), "v")) read_vertex(ahead);
     }
-    text_.expect_line_end();
-    writer_.add_vertex(x, y, z, [this] { return text_.place(); });
   }
 
   void read_face() {
@@ -53,7 +63,7 @@ class ObjReader {
     writer_.add_polygon(corners_, [this] { return text_.place(); });
   }
 
-  uint64_t read_corner(std::string_view word) const {
+  uint64_t read_corner(std::string_view word) {
     const char* end = word.data() + word.size();
     int64_t index = 0;
     const auto [after, error] = std::from_chars(word.data(), end, index);
@@ -70,17 +80,22 @@ class ObjReader {
       text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" is no corner of a face",
                       quote(word).c_str());
     }
-    const auto vertices = static_cast<int64_t>(writer_.vertex_count() - first_vertex_);
-    if (error != std::errc() || index == 0 || index > vertices || index < -vertices) {
-      text_.fail_here(SOBB_ERROR_INDEX, "corner \"%s\" names no vertex: there are %lld so far",
-                      quote(word).c_str(), static_cast<long long>(vertices));
+    const auto before = static_cast<int64_t>(vertices_);
+    if (index > before) read_all_vertices();
+    const auto last = static_cast<int64_t>(vertices_read());
+    if (error != std::errc() || index == 0 || index > last || index < -before) {
+      text_.fail_here(SOBB_ERROR_INDEX,
+                      "corner \"%s\" names no vertex: there are %lld, %lld of them so far",
+                      quote(word).c_str(), static_cast<long long>(last),
+                      static_cast<long long>(before));
     }
-    return first_vertex_ + static_cast<uint64_t>(index > 0 ? index - 1 : vertices + index);
+    return first_vertex_ + static_cast<uint64_t>(index > 0 ? index - 1 : before + index);
   }
 
   TextReader text_;
   SceneWriter& writer_;
   uint64_t first_vertex_;
+  uint64_t vertices_ = 0;  // in the statements so far; more may have been read
   std::vector<uint64_t> corners_;
 };
 

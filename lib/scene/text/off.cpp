@@ -6,34 +6,22 @@
 #include <string>
 #include <vector>
 
+#include "scene/input/ascii.h"
 #include "scene/text/text_reader.h"
 
 namespace sobb {
 namespace {
 
-// The shortest lines are "0 0 0" and "3 0 0 0", with their ends.
+// The shortest lines are "0 0 0" and "0", with their ends.
 constexpr uint64_t kLeastVertexBytes = 6;
-constexpr uint64_t kLeastFaceBytes = 8;
-
-// How many numbers may follow a vertex's position.
-struct Extras {
-  int least = 0;
-  int most = 0;
-
-  void add(int more_at_least, int more_at_most) {
-    least += more_at_least;
-    most += more_at_most;
-  }
-};
+constexpr uint64_t kLeastFaceBytes = 2;
 
 [[noreturn]] void refuse_keyword(const TextReader& text, std::string_view keyword) {
   text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" where OFF should be", quote(keyword).c_str());
 }
 
-Extras read_keyword(TextReader& text) {
-  const bool any = text.next_line_with_words();
-  const std::string_view keyword = any ? text.word() : std::string_view();
-  if (!keyword.ends_with("OFF")) refuse_keyword(text, keyword);
+// How many numbers may follow a vertex's position, by what stands before OFF.
+int extras_of(const TextReader& text, std::string_view keyword) {
   std::string prefix(keyword.substr(0, keyword.size() - 3));
   // Writers do not agree on the prefixes' order.
   const auto take = [&prefix](std::string_view part) {
@@ -42,10 +30,11 @@ Extras read_keyword(TextReader& text) {
     prefix.erase(at, part.size());
     return true;
   };
-  Extras extras;
-  if (take("ST")) extras.add(2, 2);
-  if (take("C")) extras.add(3, 4);  // alpha is often left out
-  if (take("N")) extras.add(3, 3);
+  // Only beside OFF itself in capitals does n mean another thing than N.
+  if (!keyword.ends_with("OFF")) {
+    for (char& c : prefix) c = ascii_upper(c);
+  }
+  const int extras = (take("ST") ? 2 : 0) + (take("C") ? 4 : 0) + (take("N") ? 3 : 0);
   const bool dimensions = take("4") || take("n");
   if (!prefix.empty() && prefix != "n") refuse_keyword(text, keyword);
   if (dimensions) {
@@ -55,34 +44,64 @@ Extras read_keyword(TextReader& text) {
   return extras;
 }
 
-// Moves to the counts, which may stand on the keyword's line.
-void find_counts(TextReader& text) {
+// Reads the keyword and returns how many numbers may follow a vertex's position. The keyword may be
+// missing, and the count of vertices may be glued to it.
+int read_keyword(TextReader& text) {
+  if (!text.next_line_with_words()) refuse_keyword(text, "");
   TextReader ahead = text;
-  if (ahead.word() == "BINARY") {
+  const std::string_view word = ahead.word();
+  size_t end = 3;
+  while (end <= word.size() && !is_word(word.substr(end - 3, 3), "off")) ++end;
+  if (end > word.size()) {
+    if (word[0] < '0' || word[0] > '9') refuse_keyword(text, word);
+    return 0;
+  }
+  text.pass(end);
+  const int extras = extras_of(text, word.substr(0, end));
+  if (text.take_word("binary")) {
     text.fail_here(SOBB_ERROR_SCENE_UNSUPPORTED, "binary OFF is not supported");
   }
-  if (text.at_line_end()) text.next_line_with_words();
+  return extras;
 }
 
-void read_vertex(TextReader& text, Extras extras, SceneWriter& writer) {
-  const auto [x, y, z] = text.position();
-  for (int i = 0; i < extras.most && (i < extras.least || !text.at_line_end()); ++i) {
-    text.number("a normal, colour or texture coordinate");
+struct Counts {
+  uint64_t vertices = 0;
+  uint64_t faces = 0;
+};
+
+// Each count may have a line of its own, and that of edges, which nobody needs, may be missing.
+Counts read_counts(TextReader& text) {
+  Counts counts;
+  if (text.at_line_end()) text.next_line_with_words();
+  counts.vertices = text.count("the count of vertices", UINT32_MAX);
+  const bool own_lines = text.at_line_end() && text.next_line_with_words();
+  counts.faces = text.count("the count of faces", UINT32_MAX);
+  if (text.at_line_end()) {
+    TextReader ahead = text;
+    const bool alone = own_lines && ahead.next_line_with_words() && !ahead.word().empty() &&
+                       ahead.at_line_end();
+    if (!alone) return counts;
+    text.next_line_with_words();
   }
-  text.expect_line_end();
+  text.count("the count of edges", UINT64_MAX);
+  text.pass_surplus();
+  return counts;
+}
+
+void read_vertex(TextReader& text, int extras, SceneWriter& writer) {
+  const auto [x, y, z] = text.position();
+  for (int i = 0; i < extras; ++i) text.word();
+  text.pass_surplus();
   writer.add_vertex(x, y, z, [&text] { return text.place(); });
 }
 
 }  // namespace
 
 void read_off(std::string_view bytes, SceneWriter& writer) {
-  TextReader text(bytes, writer.name().c_str(), &writer);
-  const Extras extras = read_keyword(text);
-  find_counts(text);
-  const uint64_t vertices = text.count("the count of vertices", UINT32_MAX);
-  const uint64_t faces = text.count("the count of faces", UINT32_MAX);
-  text.count("the count of edges", UINT64_MAX);
-  text.expect_line_end();
+  TextReader text(bytes, writer);
+  text.refuse_wide_characters();
+  const int extras = read_keyword(text);
+  const auto [vertices, faces] = read_counts(text);
   // The last line may lack its end.
   if (vertices * kLeastVertexBytes + faces * kLeastFaceBytes > text.bytes_left() + 1) {
     text.fail_here(SOBB_ERROR_SCENE_SYNTAX,
@@ -105,13 +124,10 @@ void read_off(std::string_view bytes, SceneWriter& writer) {
     for (uint64_t left = text.count("the count of corners", UINT32_MAX); left > 0; --left) {
       writer.push_corner(corners, first_vertex + text.vertex_index(vertices));
     }
+    // A colour may follow.
     writer.add_polygon(corners, [&text] { return text.place(); });
-    while (!text.at_line_end()) text.number("a colour");
   }
-  if (text.next_line_with_words()) {
-    text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "text after the last of %llu faces",
-                   static_cast<unsigned long long>(faces));
-  }
+  text.pass_surplus_lines();
 }
 
 }  // namespace sobb

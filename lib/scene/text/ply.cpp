@@ -3,7 +3,8 @@
 #include "scene/text/ply.h"
 
 #include <cstdint>
-#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "scene/text/ply_header.h"
@@ -12,13 +13,19 @@
 namespace sobb {
 namespace {
 
-// Which of a file's elements are the vertices and faces. Properties are indices into their
-// element's list.
+// An element whose items are lists of corners: faces or triangle strips. Properties are indices into
+// their element's list.
+struct CornerLists {
+  const PlyElement* element = nullptr;
+  size_t corners = 0;
+};
+
+// Which of a file's elements make the scene.
 struct PlyLayout {
   const PlyElement* vertices = nullptr;
   size_t xyz[3] = {};
-  const PlyElement* faces = nullptr;
-  size_t corners = 0;
+  CornerLists faces;
+  CornerLists strips;
 };
 
 // The element of that name, or null; `text` is for messages.
@@ -54,12 +61,22 @@ size_t find_property(const PlyElement& element, std::string_view name, std::stri
   return found;
 }
 
+CornerLists find_corner_lists(const PlyHeader& header, std::string_view name,
+                              const TextReader& text) {
+  CornerLists lists;
+  lists.element = find_element(header, name, text);
+  if (lists.element == nullptr) return lists;
+  lists.corners = find_property(*lists.element, "vertex_indices", "vertex_index", text);
+  const PlyProperty& corners = lists.element->properties[lists.corners];
+  if (!corners.list || !is_integer(corners.type)) {
+    text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "property %s of %s is no list of integers",
+                   corners.name.c_str(), lists.element->name.c_str());
+  }
+  return lists;
+}
+
 PlyLayout find_layout(const PlyHeader& header, const TextReader& text) {
   PlyLayout layout;
-  const PlyElement* strips = find_element(header, "tristrips", text);
-  if (strips != nullptr && strips->count > 0) {
-    text.fail_here(SOBB_ERROR_SCENE_UNSUPPORTED, "tristrips (triangle strips) are not supported");
-  }
   layout.vertices = find_element(header, "vertex", text);
   if (layout.vertices != nullptr) {
     const char* const axes[3] = {"x", "y", "z"};
@@ -70,15 +87,8 @@ PlyLayout find_layout(const PlyHeader& header, const TextReader& text) {
       }
     }
   }
-  layout.faces = find_element(header, "face", text);
-  if (layout.faces != nullptr) {
-    layout.corners = find_property(*layout.faces, "vertex_indices", "vertex_index", text);
-    const PlyProperty& corners = layout.faces->properties[layout.corners];
-    if (!corners.list || !is_integer(corners.type)) {
-      text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "property %s of face is no list of integers",
-                     corners.name.c_str());
-    }
-  }
+  layout.faces = find_corner_lists(header, "face", text);
+  layout.strips = find_corner_lists(header, "tristrips", text);
   return layout;
 }
 
@@ -119,27 +129,51 @@ void read_vertices(const PlyLayout& layout, Items& items, SceneWriter& writer) {
   }
 }
 
-// The file's vertices are the last that the writer has.
+// Adds the triangles of a strip, every other of which has its corners in the other order.
+template <class Place>
+void add_strip(std::span<const uint64_t> corners, const Place& place, SceneWriter& writer) {
+  if (corners.empty()) return;  // what follows the last -1
+  if (corners.size() < 3) writer.add_polygon(corners, place);
+  for (size_t i = 2; i < corners.size(); ++i) {
+    const size_t odd = i % 2;
+    const uint64_t triangle[3] = {corners[i - 2 + odd], corners[i - 1 - odd], corners[i]};
+    writer.add_polygon(triangle, place);
+  }
+}
+
+// Reads faces or strips. The file's vertices are the last that the writer has.
 template <class Items>
-void read_faces(const PlyLayout& layout, Items& items, SceneWriter& writer) {
-  const std::vector<PlyProperty>& properties = layout.faces->properties;
+void read_corner_lists(const PlyLayout& layout, const CornerLists& lists, Items& items,
+                       SceneWriter& writer) {
+  const bool strips = &lists == &layout.strips;
+  const std::vector<PlyProperty>& properties = lists.element->properties;
   const uint64_t vertices = layout.vertices == nullptr ? 0 : layout.vertices->count;
   const uint64_t first_vertex = writer.vertex_count() - vertices;
+  const auto place = [&items] { return items.place(); };
   std::vector<uint64_t> corners;
-  for (uint64_t i = 0; i < layout.faces->count; ++i) {
-    items.begin(*layout.faces, i);
+  for (uint64_t i = 0; i < lists.element->count; ++i) {
+    items.begin(*lists.element, i);
     for (size_t p = 0; p < properties.size(); ++p) {
-      if (p != layout.corners) {
+      if (p != lists.corners) {
         skip_property(properties[p], items);
         continue;
       }
       corners.clear();
       for (uint64_t left = items.length(properties[p]); left > 0; --left) {
-        writer.push_corner(corners, first_vertex + items.vertex_index(properties[p], vertices));
+        if (strips && items.take_strip_end(properties[p])) {
+          add_strip(corners, place, writer);
+          corners.clear();
+        } else {
+          writer.push_corner(corners, first_vertex + items.vertex_index(properties[p], vertices));
+        }
       }
     }
     items.end();
-    writer.add_polygon(corners, [&items] { return items.place(); });
+    if (strips) {
+      add_strip(corners, place, writer);
+    } else {
+      writer.add_polygon(corners, place);
+    }
   }
 }
 
@@ -147,29 +181,33 @@ template <class Items>
 void read_elements(const PlyHeader& header, const PlyLayout& layout, Items items,
                    SceneWriter& writer) {
   writer.expect(layout.vertices == nullptr ? 0 : layout.vertices->count,
-                layout.faces == nullptr ? 0 : layout.faces->count);
-  // Faces that come before their vertices are passed over at first, and read last.
-  std::optional<Items> early_faces;
+                layout.faces.element == nullptr ? 0 : layout.faces.element->count);
+  // Faces and strips that come before their vertices are passed over at first, and read last.
+  std::vector<std::pair<const CornerLists*, Items>> early;
   bool have_vertices = layout.vertices == nullptr;
   for (const PlyElement& element : header.elements) {
+    const CornerLists* lists = &element == layout.faces.element    ? &layout.faces
+                               : &element == layout.strips.element ? &layout.strips
+                                                                   : nullptr;
     if (&element == layout.vertices) {
       read_vertices(layout, items, writer);
       have_vertices = true;
-    } else if (&element == layout.faces && have_vertices) {
-      read_faces(layout, items, writer);
+    } else if (lists != nullptr && have_vertices) {
+      read_corner_lists(layout, *lists, items, writer);
     } else {
-      if (&element == layout.faces) early_faces = items;
+      if (lists != nullptr) early.emplace_back(lists, items);
       skip_element(element, items);
     }
   }
-  items.expect_end_of_file();
-  if (early_faces) read_faces(layout, *early_faces, writer);
+  items.pass_surplus(writer);
+  for (auto& [lists, at] : early) read_corner_lists(layout, *lists, at, writer);
 }
 
 }  // namespace
 
 void read_ply(std::string_view bytes, SceneWriter& writer) {
-  TextReader text(bytes, writer.name().c_str(), &writer);
+  TextReader text(bytes, writer);
+  text.refuse_wide_characters();
   const PlyHeader header = read_ply_header(text);
   const PlyLayout layout = find_layout(header, text);
   if (header.encoding == PlyEncoding::kAscii) {
@@ -178,7 +216,7 @@ void read_ply(std::string_view bytes, SceneWriter& writer) {
   }
   const std::endian order =
       header.encoding == PlyEncoding::kLittleEndian ? std::endian::little : std::endian::big;
-  read_elements(header, layout, PlyBinaryItems(text.text_after_line(), order, writer), writer);
+  read_elements(header, layout, PlyBinaryItems(header.data, order, writer), writer);
 }
 
 }  // namespace sobb

@@ -66,7 +66,7 @@ uint64_t least_bytes(const PlyElement& element, PlyEncoding encoding) {
 // Refuses elements that the rest of the file cannot hold.
 void check_counts(const PlyHeader& header, const TextReader& text) {
   // The last line of text may lack its end.
-  uint64_t left = text.text_after_line().size() + (header.encoding == PlyEncoding::kAscii ? 1 : 0);
+  uint64_t left = header.data.size() + (header.encoding == PlyEncoding::kAscii ? 1 : 0);
   for (const PlyElement& element : header.elements) {
     const uint64_t bytes = least_bytes(element, header.encoding);
     if (bytes == 0) continue;
@@ -102,11 +102,13 @@ uint64_t size_of(PlyType type) {
 
 PlyHeader read_ply_header(TextReader& text) {
   PlyHeader header;
-  if (!text.next_line() || text.rest_of_line() != "ply") {
+  if (!text.next_line() || !is_word(text.rest_of_line(), "ply")) {
     text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the first line is not \"ply\"");
   }
+  // Where lines end with CR, an LF after the last one is the first byte of the data.
+  const bool cr_alone = text.ends_with_cr();
   bool has_format = false;
-  while (text.next_line()) {
+  while (text.next_line_with_words()) {
     const std::string_view keyword = text.word();
     if (keyword == "comment" || keyword == "obj_info") continue;
     if (keyword == "format" && !has_format) {
@@ -120,6 +122,7 @@ PlyHeader read_ply_header(TextReader& text) {
       header.elements.back().properties.push_back(read_property(text));
     } else if (keyword == "end_header" && has_format) {
       text.expect_line_end();
+      header.data = cr_alone ? text.text_after_cr() : text.text_after_line();
       check_counts(header, text);
       return header;
     } else {

@@ -34,6 +34,7 @@ struct PlyElement {
 struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::kAscii;
   std::vector<PlyElement> elements;  // in the order of their data
+  std::string_view data;             // what follows the header
 };
 
 // Reads from the first line to that of end_header, where it leaves `text`.

@@ -9,11 +9,6 @@
 
 namespace sobb {
 
-void PlyTextItems::expect_end_of_file() {
-  if (!text_.next_line_with_words()) return;
-  text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "more text than the header declares");
-}
-
 const char* PlyBinaryItems::take(uint64_t bytes) {
   if (bytes > static_cast<uint64_t>(end_ - at_)) {
     fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s: the file ends within it", name_, place().c_str());
@@ -64,16 +59,27 @@ uint64_t PlyBinaryItems::vertex_index(const PlyProperty& property, uint64_t vert
   return static_cast<uint64_t>(index);
 }
 
+bool PlyBinaryItems::take_strip_end(const PlyProperty& property) {
+  const char* before = at_;
+  const double index = value(property.type);
+  // Unsigned lists have the same bits.
+  if (index == -1 || (property.type == PlyType::kUint32 && index == UINT32_MAX)) return true;
+  at_ = before;
+  return false;
+}
+
 std::string PlyBinaryItems::place() const {
   return quote(element_->name) + " " + std::to_string(index_);
 }
 
-void PlyBinaryItems::expect_end_of_file() const {
+void PlyBinaryItems::pass_surplus(SceneWriter& writer) const {
   // Some writers end even binary files with a line's end.
   const auto is_space = [](char c) { return c == '\n' || c == '\r' || c == ' '; };
   if (std::all_of(at_, end_, is_space)) return;
-  fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %lld bytes more than the header declares", name_,
-       static_cast<long long>(end_ - at_));
+  const auto bytes = static_cast<uint64_t>(end_ - at_);
+  writer.note(
+      SOBB_NOTE_SURPLUS,
+      [bytes] { return std::to_string(bytes) + " bytes more than the header declares"; }, bytes);
 }
 
 }  // namespace sobb

@@ -25,19 +25,21 @@ class PlyTextItems {
   void begin(const PlyElement& element, uint64_t index) {
     text_.next_item(element.name, index, element.count);
   }
-  void end() { text_.expect_line_end(); }
+  void end() { text_.pass_surplus(); }
 
   float number(const PlyProperty& property) { return text_.number(property.name.c_str()); }
   uint64_t length(const PlyProperty&) { return text_.count("a list's length", UINT32_MAX); }
   uint64_t vertex_index(const PlyProperty&, uint64_t vertices) {
     return text_.vertex_index(vertices);
   }
+  // Takes the -1 that ends a triangle strip; false where it is not next.
+  bool take_strip_end(const PlyProperty&) { return text_.take_word("-1"); }
   void skip(const PlyProperty& property, uint64_t values) {
     text_.skip(values, property.name.c_str());
   }
 
   std::string place() const { return text_.place(); }
-  void expect_end_of_file();
+  void pass_surplus(SceneWriter&) { text_.pass_surplus_lines(); }
 
  private:
   TextReader text_;
@@ -62,10 +64,11 @@ class PlyBinaryItems {
   float number(const PlyProperty& property) { return nearest_float(value(property.type)); }
   uint64_t length(const PlyProperty& property);
   uint64_t vertex_index(const PlyProperty& property, uint64_t vertices);
+  bool take_strip_end(const PlyProperty& property);
   void skip(const PlyProperty& property, uint64_t values) { take(values * size_of(property.type)); }
 
   std::string place() const;
-  void expect_end_of_file() const;
+  void pass_surplus(SceneWriter& writer) const;
 
  private:
   // The next `bytes` bytes; SCENE_SYNTAX where the file ends before.

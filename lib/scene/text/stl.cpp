@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/input/load_bytes.h"
@@ -18,6 +19,8 @@ constexpr uint64_t kTriangleBytes = 50;  // a normal, three vertices, two bytes 
 constexpr uint64_t kVertexAt = 12;
 constexpr uint64_t kVertexBytes = 12;
 
+constexpr std::string_view kSolid = "solid";
+
 uint64_t declared_triangles(std::string_view bytes) {
   return load_little<uint32_t>(bytes.data() + kCountAt);
 }
@@ -25,9 +28,10 @@ uint64_t declared_triangles(std::string_view bytes) {
 uint64_t binary_size(uint64_t triangles) { return kHeaderBytes + triangles * kTriangleBytes; }
 
 // Binary files may begin with the word solid as well, but text has no zero byte.
-bool begins_as_ascii(std::string_view bytes) {
-  TextReader text(bytes, "");
-  return text.next_line_with_words() && text.take_word("solid") &&
+bool begins_as_ascii(std::string_view bytes, SceneWriter& writer) {
+  TextReader text(bytes, writer);
+  const std::string_view word = text.word_of_any_line();
+  return (is_word(word.substr(0, kSolid.size()), kSolid) || is_word(word, "facet")) &&
          bytes.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
 }
 
@@ -39,8 +43,7 @@ void add_triangle(SceneWriter& writer, const Place& place) {
   writer.add_polygon(corners, place);
 }
 
-void read_binary(std::string_view bytes, SceneWriter& writer) {
-  const uint64_t triangles = declared_triangles(bytes);
+void read_binary(std::string_view bytes, uint64_t triangles, SceneWriter& writer) {
   writer.expect(3 * triangles, triangles);
   for (uint64_t i = 0; i < triangles; ++i) {
     const auto place = [i] { return "triangle " + std::to_string(i); };
@@ -54,50 +57,107 @@ void read_binary(std::string_view bytes, SceneWriter& writer) {
     }
     add_triangle(writer, place);
   }
+  const uint64_t surplus = bytes.size() - binary_size(triangles);
+  if (surplus == 0) return;
+  writer.note(
+      SOBB_NOTE_SURPLUS,
+      [&] { return std::to_string(surplus) + " bytes after triangle " + std::to_string(triangles); },
+      surplus);
 }
 
-void next_line(TextReader& text, const char* expected) {
-  if (text.next_line_with_words()) return;
-  text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the file ends where %s should be", expected);
-}
+// Reads ASCII word by word: writers agree neither on the lines nor on how statements end.
+class AsciiReader {
+ public:
+  AsciiReader(std::string_view bytes, SceneWriter& writer) : text_(bytes, writer), writer_(writer) {}
 
-void expect_line(TextReader& text, const char* word) {
-  next_line(text, word);
-  text.expect_word(word);
-}
-
-// Reads on after the word facet. What follows that is the normal, which some writers leave
-// undefined.
-void read_facet(TextReader& text, SceneWriter& writer) {
-  const auto place = [&text] { return text.place(); };
-  expect_line(text, "outer");
-  text.expect_word("loop");
-  text.expect_line_end();
-  for (int c = 0; c < 3; ++c) {
-    expect_line(text, "vertex");
-    const auto [x, y, z] = text.position();
-    text.expect_line_end();
-    writer.add_vertex(x, y, z, place);
-  }
-  for (const char* word : {"endloop", "endfacet"}) {
-    expect_line(text, word);
-    text.expect_line_end();
-  }
-  add_triangle(writer, place);
-}
-
-void read_ascii(std::string_view bytes, SceneWriter& writer) {
-  TextReader text(bytes, writer.name().c_str(), &writer);
-  while (text.next_line_with_words()) {
-    text.expect_word("solid");
-    writer.begin_mesh(std::string(text.rest_of_line()));
-    next_line(text, "endsolid");
-    while (text.take_word("facet")) {
-      read_facet(text, writer);
-      next_line(text, "endsolid");
+  void read() {
+    for (std::string_view word = text_.word_of_any_line(); !word.empty();
+         word = text_.word_of_any_line()) {
+      read_statement(word);
     }
-    text.expect_word("endsolid");
+    if (in_loop_ && corners_.size() < 3) {
+      text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the file ends within a facet");
+    }
+    end_loop();
   }
+
+ private:
+  void read_statement(std::string_view word) {
+    if (is_word(word, "vertex") && in_loop_) {
+      read_vertex();
+    } else if (is_word(word, "facet")) {
+      begin_loop();
+      skip_normal();
+    } else if (is_word(word, "outer") || is_word(word, "outerloop")) {
+      begin_loop();
+      text_.take_word("loop");
+    } else if (is_word(word.substr(0, kSolid.size()), kSolid)) {
+      end_loop();
+      std::string name(word.substr(kSolid.size()));
+      writer_.begin_mesh(name.append(text_.rest_of_line()));
+    } else if (is_word(word, "end")) {
+      read_end(text_.word());
+    } else if (is_word(word.substr(0, 3), "end")) {
+      read_end(word.substr(3));
+    } else {
+      refuse(word);
+    }
+  }
+
+  // The word after end, which may be glued to it, and a solid's name to that.
+  void read_end(std::string_view what) {
+    if (is_word(what.substr(0, kSolid.size()), kSolid)) {
+      text_.rest_of_line();
+    } else if (!is_word(what, "loop") && !is_word(what, "facet")) {
+      refuse(what);
+    }
+    end_loop();
+  }
+
+  // A facet begins its loop, which the loop's own line begins once more.
+  void begin_loop() {
+    if (!corners_.empty()) end_loop();
+    in_loop_ = true;
+  }
+
+  // Ends may be missing, and are told from what follows.
+  void end_loop() {
+    if (in_loop_) writer_.add_polygon(corners_, [this] { return text_.place(); });
+    in_loop_ = false;
+    corners_.clear();
+  }
+
+  // Some writers leave the normal undefined, in any spelling.
+  void skip_normal() {
+    for (TextReader ahead = text_; !ahead.at_line_end(); text_ = ahead) {
+      const std::string_view word = ahead.word();
+      if (is_word(word, "outer") || is_word(word, "vertex")) return;
+    }
+  }
+
+  void read_vertex() {
+    const auto [x, y, z] = text_.position();
+    writer_.push_corner(corners_, writer_.vertex_count());
+    writer_.add_vertex(x, y, z, [this] { return text_.place(); });
+    text_.pass_surplus_numbers();
+  }
+
+  [[noreturn]] void refuse(std::string_view word) const {
+    text_.fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" where a statement of STL should be",
+                    quote(word).c_str());
+  }
+
+  TextReader text_;
+  SceneWriter& writer_;
+  bool in_loop_ = false;
+  std::vector<uint64_t> corners_;
+};
+
+// The triangles of a binary file. Some writers leave the count at zero.
+uint64_t binary_triangles(std::string_view bytes) {
+  const uint64_t declared = declared_triangles(bytes);
+  const uint64_t fitting = (bytes.size() - kHeaderBytes) / kTriangleBytes;
+  return declared == 0 && bytes.size() == binary_size(fitting) ? fitting : declared;
 }
 
 }  // namespace
@@ -105,20 +165,27 @@ void read_ascii(std::string_view bytes, SceneWriter& writer) {
 void read_stl(std::string_view bytes, SceneWriter& writer) {
   const char* name = writer.name().c_str();
   const bool has_count = bytes.size() >= kHeaderBytes;
-  if (has_count && bytes.size() == binary_size(declared_triangles(bytes))) {
-    read_binary(bytes, writer);
-  } else if (begins_as_ascii(bytes)) {
-    read_ascii(bytes, writer);
-  } else if (has_count) {
-    const uint64_t triangles = declared_triangles(bytes);
+  if (has_count && bytes.size() == binary_size(binary_triangles(bytes))) {
+    read_binary(bytes, binary_triangles(bytes), writer);
+    return;
+  }
+  if (begins_as_ascii(bytes, writer)) {
+    AsciiReader(bytes, writer).read();
+    return;
+  }
+  TextReader(bytes, writer).refuse_wide_characters();
+  if (!has_count) {
+    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %zu bytes are no STL: ASCII begins with solid", name,
+         bytes.size());
+  }
+  const uint64_t triangles = declared_triangles(bytes);
+  if (bytes.size() < binary_size(triangles)) {
     fail(SOBB_ERROR_SCENE_SYNTAX,
          "%s: binary STL of %llu triangles takes %llu bytes, the file has %zu", name,
          static_cast<unsigned long long>(triangles),
          static_cast<unsigned long long>(binary_size(triangles)), bytes.size());
-  } else {
-    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %zu bytes are no STL: ASCII begins with solid", name,
-         bytes.size());
   }
+  read_binary(bytes, triangles, writer);
 }
 
 }  // namespace sobb

@@ -20,10 +20,27 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 }  // namespace
 
-TextReader::TextReader(std::string_view bytes, const char* name, SceneWriter* writer)
-    : at_(bytes.data()), end_(bytes.data() + bytes.size()), progress_(bytes, writer), name_(name) {
+TextReader::TextReader(std::string_view bytes, SceneWriter& writer)
+    : at_(bytes.data()),
+      end_(bytes.data() + bytes.size()),
+      progress_(bytes, &writer),
+      writer_(&writer) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (bytes.starts_with(kByteOrderMark)) at_ += kByteOrderMark.size();
+}
+
+void TextReader::refuse_wide_characters() const {
+  using namespace std::string_view_literals;
+  const std::string_view text(at_, bytes_left());
+  const auto refuse = [this](int bits) {
+    fail_here(SOBB_ERROR_SCENE_UNSUPPORTED, "text in UTF-%d: only ASCII and UTF-8 are read", bits);
+  };
+  if (text.starts_with("\xFF\xFE\0\0"sv) || text.starts_with("\0\0\xFE\xFF"sv)) refuse(32);
+  if (text.starts_with("\xFF\xFE"sv) || text.starts_with("\xFE\xFF"sv)) refuse(16);
+  // Without a mark, every other byte of letters is zero.
+  const auto zero = [text](size_t i) { return text[i] == '\0'; };
+  if (text.size() < 4 || zero(0) == zero(1)) return;
+  if (zero(0) == zero(2) && zero(1) == zero(3)) refuse(16);
 }
 
 const char* TextReader::line_end(const char* from) const {
@@ -58,6 +75,11 @@ void TextReader::next_item(std::string_view item, uint64_t index, uint64_t count
             static_cast<unsigned long long>(index), static_cast<unsigned long long>(count));
 }
 
+bool TextReader::ends_with_cr() const {
+  const char* end = line_end(at_);
+  return end != end_ && *end == '\r' && after_line_end(end) == end + 1;
+}
+
 bool TextReader::ends_word(const char* p) const {
   if (p == end_ || is_blank(*p) || is_line_end(*p)) return true;
   return *p == '\\' && (p + 1 == end_ || is_line_end(p[1]));
@@ -77,11 +99,21 @@ bool TextReader::at_line_end() {
   return at_ == end_ || is_line_end(*at_) || *at_ == '#';
 }
 
+void TextReader::pass(size_t characters) {
+  skip_blanks();
+  at_ += characters;
+}
+
 std::string_view TextReader::word() {
   if (at_line_end()) return {};
   const char* begin = at_;
   while (!ends_word(at_)) ++at_;
   return {begin, static_cast<size_t>(at_ - begin)};
+}
+
+std::string_view TextReader::word_of_any_line() {
+  if (at_line_end() && !next_line_with_words()) return {};
+  return word();
 }
 
 std::string_view TextReader::required_word(const char* what) {
@@ -146,11 +178,32 @@ void TextReader::expect_line_end() {
   if (!at_line_end()) refuse_word(word(), "the line's end");
 }
 
+void TextReader::pass_surplus() {
+  while (!at_line_end()) note_surplus(word());
+}
+
+void TextReader::pass_surplus_numbers() {
+  for (TextReader ahead = *this; !ahead.at_line_end(); *this = ahead) {
+    float value = 0;
+    const std::string_view surplus = ahead.word();
+    if (!parse_number(surplus, value)) return;
+    note_surplus(surplus);
+  }
+}
+
+void TextReader::note_surplus(std::string_view word) const {
+  writer_->note(SOBB_NOTE_SURPLUS, [&] {
+    return place() + ": \"" + quote(word) + "\" is more than the file declares";
+  });
+}
+
+void TextReader::pass_surplus_lines() {
+  while (next_line_with_words()) pass_surplus();
+}
+
 bool TextReader::take_word(std::string_view expected) {
   TextReader ahead = *this;
-  const std::string_view found = ahead.word();
-  const bool same = std::equal(found.begin(), found.end(), expected.begin(), expected.end(),
-                               [](char a, char b) { return ascii_lower(a) == ascii_lower(b); });
+  const bool same = is_word(ahead.word(), expected);
   if (same) *this = ahead;
   return same;
 }
@@ -164,6 +217,12 @@ std::string_view TextReader::text_after_line() const {
   return {next, static_cast<size_t>(end_ - next)};
 }
 
+std::string_view TextReader::text_after_cr() const {
+  const char* end = line_end(at_);
+  const char* next = end == end_ ? end : end + 1;
+  return {next, static_cast<size_t>(end_ - next)};
+}
+
 std::string TextReader::place() const {
   return "line " + std::to_string(std::max<uint64_t>(line_, 1));
 }
@@ -174,7 +233,7 @@ void TextReader::fail_here(sobb_status status, const char* format, ...) const {
   va_start(arguments, format);
   std::vsnprintf(message, sizeof message, format, arguments);
   va_end(arguments);
-  throw Error(status, std::string(name_) + ": " + place() + ": " + message);
+  throw Error(status, writer_->name() + ": " + place() + ": " + message);
 }
 
 void TextReader::refuse_word(std::string_view word, const char* what) const {
@@ -182,6 +241,11 @@ void TextReader::refuse_word(std::string_view word, const char* what) const {
     fail_here(SOBB_ERROR_SCENE_SYNTAX, "the line ends where %s should be", what);
   }
   fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" where %s should be", quote(word).c_str(), what);
+}
+
+bool is_word(std::string_view word, std::string_view lower) {
+  return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                    [](char a, char b) { return ascii_lower(a) == b; });
 }
 
 std::string quote(std::string_view word) {

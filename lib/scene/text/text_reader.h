@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "scene/input/read_progress.h"
-#include "sobb/sobb.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -25,9 +25,12 @@ namespace sobb {
 // data lines of PLY and STL neither occurs.
 class TextReader {
  public:
-  // `name` is the source, for messages; `writer`, if any, learns how far reading is. All arguments
+  // Reads the file that `writer` is named for; the writer learns how far reading is. All arguments
   // are borrowed.
-  TextReader(std::string_view bytes, const char* name, SceneWriter* writer = nullptr);
+  TextReader(std::string_view bytes, SceneWriter& writer);
+
+  // Throws SCENE_UNSUPPORTED where the text is UTF-16 or UTF-32, by its first bytes.
+  void refuse_wide_characters() const;
 
   // Moves to the next line, at first to line 1; false at the end of the text. What is left of the
   // current line is passed over, without regard to backslashes.
@@ -38,13 +41,20 @@ class TextReader {
   // text ends.
   void next_item(std::string_view item, uint64_t index, uint64_t count);
 
+  // Returns whether the current line ends with a CR that no LF follows.
+  bool ends_with_cr() const;
+
   // The next word of the line; empty at the line's end.
   std::string_view word();
+  // The next word of this or a later line; empty at the end of the text.
+  std::string_view word_of_any_line();
   // The next word; SCENE_SYNTAX at the line's end. `what` is what was expected there, as below.
   std::string_view required_word(const char* what);
   // The line from here, without blanks around it, # and backslashes included.
   std::string_view rest_of_line();
   bool at_line_end();
+  // Passes over so many characters of the next word.
+  void pass(size_t characters);
 
   // The next word as a number; SCENE_SYNTAX where it is none. `what` is what was expected there.
   // Beyond float's range: the largest float, which the scene's limit then refuses.
@@ -59,11 +69,18 @@ class TextReader {
   void skip(uint64_t words, const char* what);
 
   void expect_line_end();
+  // Passes over the words that the line has left, with a note of SOBB_NOTE_SURPLUS.
+  void pass_surplus();
+  // Passes over the numbers that come next on the line likewise.
+  void pass_surplus_numbers();
+  // Passes over the lines that follow likewise.
+  void pass_surplus_lines();
   void expect_word(std::string_view expected);  // ASCII letters in either case
   bool take_word(std::string_view expected);    // false where it is not next, and stays before it
 
-  // The text after the current line.
+  // The text after the current line; the second for a line that ends with CR, whatever follows.
   std::string_view text_after_line() const;
+  std::string_view text_after_cr() const;
   // Bytes from here to the end of the text.
   uint64_t bytes_left() const { return static_cast<uint64_t>(end_ - at_); }
 
@@ -77,14 +94,18 @@ class TextReader {
   const char* after_line_end(const char* line_end) const;
   bool ends_word(const char* p) const;
   void skip_blanks();
+  void note_surplus(std::string_view word) const;
   [[noreturn]] void refuse_word(std::string_view word, const char* what) const;
 
   const char* at_;
   const char* end_;
   ReadProgress progress_;
-  const char* name_;
+  SceneWriter* writer_;
   uint64_t line_ = 0;  // 0 before the first
 };
+
+// Returns whether a word is that of a format, `lower`, in letters of either case.
+bool is_word(std::string_view word, std::string_view lower);
 
 // A word for a message: cut where it is long, bytes that are no letters replaced.
 std::string quote(std::string_view word);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -29,6 +30,10 @@ public:
     std::vector<N> indices;
     std::size_t vertices = 0;
 
+    // sobb: called whenever the visits of nodes that it allowed last are used up; returns how many
+    // more are allowed. It may throw. Once it returns 0, the rest of the polygon becomes a fan.
+    std::function<std::size_t()> allowance;
+
     template <typename Polygon>
     void operator()(const Polygon& points);
 
@@ -50,18 +55,17 @@ private:
         Node* prev = nullptr;
         Node* next = nullptr;
 
-        // z-order curve value
+        // the block that has this one while holes are merged
         int32_t z = 0;
+
+        // sobb: the leaf of the tree of reflex points that has this one; 0 for none
+        std::size_t leaf = 0;
 
         // original index in polygon
         const N i : (sizeof(N) * 8 - 1);
 
         // indicates whether this is a steiner point
         N steiner : 1;
-
-        // previous and next nodes in z-order
-        Node* prevZ = nullptr;
-        Node* nextZ = nullptr;
     };
 
     // Cache-optimized Triangle structure for repeated geometric tests
@@ -103,11 +107,16 @@ private:
     template <typename Ring>
     Node* linkedList(const Ring& points, const bool clockwise);
     Node* filterPoints(Node* start, Node* end = nullptr);
-    void earcutLinked(Node* ear);
+    void earcutLinked(Node* ear, int depth = 0);
+    // sobb: takes visits off the allowance; false where there is none left
+    bool spend(std::size_t visits);
+    // sobb: adds the triangle of a node about to be removed, so that n corners make n - 2 triangles
+    void emit(const Node* p, const Node* q, const Node* r);
+    void fanRest(Node* start);
     bool isEar(Node* ear);
     bool isEarHashed(Node* ear);
     Node* cureLocalIntersections(Node* start);
-    void splitEarcut(Node* start);
+    void splitEarcut(Node* start, int depth);
     template <typename Polygon>
     Node* eliminateHoles(const Polygon& points, Node* outerNode);
     Node* eliminateHole(Node* hole, Node* outerNode);
@@ -118,9 +127,12 @@ private:
     Node* liveBlockHead(std::size_t b);
     Node* liveBlockStop(std::size_t b);
     bool sectorContainsSector(const Node* m, const Node* p);
-    void indexCurve(Node* start);
-    Node* sortLinked(Node* list);
-    int32_t zOrder(const double x_, const double y_);
+    bool blocks(const Triangle& tri, const Node* p) const;
+    void buildTree(Node* start);
+    void splitPoints(std::size_t node, std::size_t firstLeaf, std::size_t leafCount);
+    std::size_t firstPoint(std::size_t leaf) const { return leaf * reflex.size() / leaves; }
+    void leaveTree(Node* p);
+    bool treeBlocks(const Triangle& tri, const Node* next, std::size_t node);
     Node* getLeftmost(Node* start);
     bool pointInTriangle(double ax, double ay, double bx, double by, double cx, double cy, double px, double py) const;
     bool isValidDiagonal(Node* a, Node* b);
@@ -136,13 +148,13 @@ private:
     Node* insertNode(std::size_t i, const Point& p, Node* last);
     void removeNode(Node* p);
 
+    static constexpr int kMaxDepth = 256; // sobb: of polygons split in two
+    std::size_t allowed = 0;
+    bool exhausted = false;
     bool hashing;
     // set by filterPoints whenever it removes at least one node; read by earcutLinked's stall
     // handler to decide whether another clip pass is worth attempting before the costlier stages
     bool filteredOut = false;
-    double minX, maxX;
-    double minY, maxY;
-    double inv_size = 0;
 
     template <typename T, typename Alloc = std::allocator<T>>
     class ObjectPool {
@@ -218,8 +230,35 @@ private:
 
     std::unique_ptr<ObjectPool<Node>> nodes;
     std::vector<Node*> holeQueue;
-    // reused scratch buffer for sortLinked: materialize the z-linked ring, std::sort, relink
-    std::vector<Node*> sortBuffer;
+    // sobb: the tree of reflex points: its points, leaf after leaf, and its nodes as a heap
+    struct Box {
+        double minX = std::numeric_limits<double>::infinity();
+        double minY = minX;
+        double maxX = -minX;
+        double maxY = -minX;
+        std::size_t alive = 0; // points that may still block an ear
+
+        void add(double px, double py) {
+            minX = std::min<double>(minX, px);
+            minY = std::min<double>(minY, py);
+            maxX = std::max<double>(maxX, px);
+            maxY = std::max<double>(maxY, py);
+        }
+        // whether the box is beyond the line from a to b, by the same products as containsPoint
+        bool beyond(double ax, double ay, double bx, double by) const {
+            const double px = by > ay ? minX : maxX;
+            const double py = bx > ax ? maxY : minY;
+            return (ax - px) * (by - py) < (bx - px) * (ay - py);
+        }
+        bool outside(const Triangle& t) const {
+            return minX > t.maxX || maxX < t.minX || minY > t.maxY || maxY < t.minY ||
+                   beyond(t.cx, t.cy, t.ax, t.ay) || beyond(t.ax, t.ay, t.bx, t.by) || beyond(t.bx, t.by, t.cx, t.cy);
+        }
+    };
+    static constexpr std::size_t kLeafPoints = 8;
+    std::size_t leaves = 1;
+    std::vector<Node*> reflex;
+    std::vector<Box> boxes;
 
     // Block-bbox index for findHoleBridge (issue #183): one [minX,minY,maxX,maxY] bbox per K
     // consecutive ring edges, so the leftward-ray scan can skip whole blocks in O(1) instead of
@@ -246,11 +285,11 @@ void Earcut<N>::operator()(const Polygon& points) {
     // reset
     indices.clear();
     vertices = 0;
+    allowed = 0;
+    exhausted = false;
 
     if (points.empty()) return;
 
-    double x;
-    double y;
     int threshold = 80;
     std::size_t len = 0;
 
@@ -265,33 +304,15 @@ void Earcut<N>::operator()(const Polygon& points) {
         std::size_t estimatedNodes = len * 3 / 2;
         nodes = std::make_unique<ObjectPool<Node>>(std::max<std::size_t>(estimatedNodes, 256));
     }
-    indices.reserve(len + static_cast<std::size_t>(points[0].size()));
+    indices.reserve(3 * static_cast<std::size_t>(points[0].size())); // sobb: n - 2 triangles
 
     Node* outerNode = linkedList(points[0], true);
     if (!outerNode || outerNode->prev == outerNode->next) return;
 
     if (points.size() > 1) outerNode = eliminateHoles(points, outerNode);
 
-    // if the shape is not too simple, we'll use z-order curve hash later; calculate polygon bbox
+    // if the shape is not too simple, reflex points are looked up in a tree
     hashing = threshold < 0;
-    if (hashing) {
-        Node* p = outerNode->next;
-        minX = maxX = outerNode->x;
-        minY = maxY = outerNode->y;
-        do {
-            x = p->x;
-            y = p->y;
-            minX = std::min<double>(minX, x);
-            minY = std::min<double>(minY, y);
-            maxX = std::max<double>(maxX, x);
-            maxY = std::max<double>(maxY, y);
-            p = p->next;
-        } while (p != outerNode);
-
-        // minX, minY and inv_size are later used to transform coords into integers for z-order calculation
-        inv_size = std::max<double>(maxX - minX, maxY - minY);
-        inv_size = inv_size != .0 ? (32767. / inv_size) : .0;
-    }
 
     earcutLinked(outerNode);
 
@@ -328,6 +349,7 @@ typename Earcut<N>::Node* Earcut<N>::linkedList(const Ring& points, const bool c
     }
 
     if (last && equals(last, last->next)) {
+        emit(last->prev, last, last->next);
         removeNode(last);
         last = last->next;
     }
@@ -351,10 +373,12 @@ typename Earcut<N>::Node* Earcut<N>::filterPoints(Node* start, Node* end) {
     Node* p = start;
     bool again;
     do {
+        spend(1);
         again = false;
         if (p != p->next && !p->steiner && (equals(p, p->next) || area(p->prev, p, p->next) == 0)) {
             if (full || p == end) end = p->prev; // pull the stop bound back past the removal
             filteredOut = true;
+            emit(p->prev, p, p->next);
             removeNode(p);
             p = p->prev; // re-check the predecessor
             again = true;
@@ -367,13 +391,44 @@ typename Earcut<N>::Node* Earcut<N>::filterPoints(Node* start, Node* end) {
     return end;
 }
 
+template <typename N>
+bool Earcut<N>::spend(std::size_t visits) {
+    while (visits > allowed && !exhausted) {
+        visits -= allowed;
+        allowed = allowance ? allowance() : std::numeric_limits<std::size_t>::max();
+        exhausted = allowed == 0;
+    }
+    if (!exhausted) allowed -= visits;
+    return !exhausted;
+}
+
+template <typename N>
+void Earcut<N>::emit(const Node* p, const Node* q, const Node* r) {
+    if (p == r) return; // two nodes are left
+    indices.emplace_back(p->i);
+    indices.emplace_back(q->i);
+    indices.emplace_back(r->i);
+}
+
+template <typename N>
+void Earcut<N>::fanRest(Node* start) {
+    while (start->prev != start->next) {
+        Node* p = start->next;
+        emit(start, p, p->next);
+        removeNode(p);
+    }
+}
+
 // main ear slicing loop which triangulates a polygon (given as a linked list)
 template <typename N>
-void Earcut<N>::earcutLinked(Node* ear) {
+void Earcut<N>::earcutLinked(Node* ear, int depth) {
     if (!ear) return;
+    if (depth > kMaxDepth) {
+        fanRest(ear);
+        return;
+    }
 
-    // interlink polygon nodes in z-order
-    if (hashing) indexCurve(ear);
+    if (hashing) buildTree(ear);
 
     Node* stop = ear;
     Node* prev;
@@ -382,6 +437,10 @@ void Earcut<N>::earcutLinked(Node* ear) {
 
     // iterate through ears, slicing them one by one
     while (ear->prev != ear->next) {
+        if (!spend(1)) {
+            fanRest(ear);
+            return;
+        }
         prev = ear->prev;
         next = ear->next;
 
@@ -394,8 +453,9 @@ void Earcut<N>::earcutLinked(Node* ear) {
 
             removeNode(ear);
 
-            ear = next;
-            stop = next;
+            // sobb: both neighbours of the corner cut may have become ears
+            ear = prev;
+            stop = prev;
 
             continue;
         }
@@ -422,7 +482,7 @@ void Earcut<N>::earcutLinked(Node* ear) {
             }
 
             // as a last resort, try splitting the remaining polygon into two
-            splitEarcut(ear);
+            splitEarcut(ear, depth);
             break;
         }
     }
@@ -441,9 +501,8 @@ bool Earcut<N>::isEar(Node* ear) {
     // now make sure we don't have other points inside the potential ear
     Node* p = ear->next->next;
 
-    while (p != ear->prev) {
-        if (tri.inBBox(p->x, p->y) && tri.containsPointExceptFirst(p->x, p->y) && area(p->prev, p, p->next) >= 0)
-            return false;
+    while (p != ear->prev && spend(1)) {
+        if (blocks(tri, p)) return false;
         p = p->next;
     }
 
@@ -451,39 +510,78 @@ bool Earcut<N>::isEar(Node* ear) {
 }
 
 template <typename N>
+bool Earcut<N>::blocks(const Triangle& tri, const Node* p) const {
+    return tri.inBBox(p->x, p->y) && tri.containsPointExceptFirst(p->x, p->y) && area(p->prev, p, p->next) >= 0;
+}
+
+// sobb: upstream looks points up along a z-order curve, which visits most of them where ears are
+// long: quadratic time. A k-d tree of the reflex points, the only ones that block an ear, does not.
+template <typename N>
+void Earcut<N>::buildTree(Node* start) {
+    reflex.clear();
+    Node* p = start;
+    do {
+        p->leaf = 0;
+        if (area(p->prev, p, p->next) >= 0) reflex.push_back(p);
+        p = p->next;
+    } while (p != start);
+
+    leaves = 1;
+    while (leaves * kLeafPoints < reflex.size()) leaves *= 2;
+    boxes.assign(2 * leaves, Box());
+    splitPoints(1, 0, leaves);
+}
+
+// the reflex points of leaf i are reflex[firstPoint(i)] to reflex[firstPoint(i + 1)]
+template <typename N>
+void Earcut<N>::splitPoints(std::size_t node, std::size_t firstLeaf, std::size_t leafCount) {
+    const auto first = reflex.begin() + static_cast<std::ptrdiff_t>(firstPoint(firstLeaf));
+    const auto last = reflex.begin() + static_cast<std::ptrdiff_t>(firstPoint(firstLeaf + leafCount));
+    spend(static_cast<std::size_t>(last - first));
+    Box& box = boxes[node];
+    for (auto p = first; p != last; ++p) box.add((*p)->x, (*p)->y);
+    box.alive = static_cast<std::size_t>(last - first);
+    if (leafCount == 1) {
+        for (auto p = first; p != last; ++p) (*p)->leaf = node;
+        return;
+    }
+    const bool alongX = box.maxX - box.minX > box.maxY - box.minY;
+    const auto middle = reflex.begin() + static_cast<std::ptrdiff_t>(firstPoint(firstLeaf + leafCount / 2));
+    std::nth_element(first, middle, last, [alongX](const Node* a, const Node* b) {
+        return alongX ? a->x < b->x : a->y < b->y;
+    });
+    splitPoints(2 * node, firstLeaf, leafCount / 2);
+    splitPoints(2 * node + 1, firstLeaf + leafCount / 2, leafCount / 2);
+}
+
+template <typename N>
+void Earcut<N>::leaveTree(Node* p) {
+    for (std::size_t node = p->leaf; node > 0; node /= 2) boxes[node].alive--;
+    p->leaf = 0;
+}
+
+template <typename N>
 bool Earcut<N>::isEarHashed(Node* ear) {
-    const Node* a = ear->prev;
-    const Node* b = ear;
-    const Node* c = ear->next;
+    const Triangle tri(ear->prev, ear, ear->next);
+    return !treeBlocks(tri, ear->next, 1);
+}
 
-    // reflex check is hoisted into the earcutLinked caller
-    const Triangle tri(a, b, c);
-
-    // z-order range for the current triangle bbox;
-    const int32_t minZ = zOrder(tri.minX, tri.minY);
-    const int32_t maxZ = zOrder(tri.maxX, tri.maxY);
-
-    // first look for points inside the triangle in increasing z-order
-    Node* p = ear->nextZ;
-
-    while (p && p->z <= maxZ) {
-        if (p != ear->next && tri.inBBox(p->x, p->y) && tri.containsPointExceptFirst(p->x, p->y) &&
-            area(p->prev, p, p->next) >= 0)
-            return false;
-        p = p->nextZ;
+template <typename N>
+bool Earcut<N>::treeBlocks(const Triangle& tri, const Node* next, std::size_t node) {
+    if (!spend(1)) return true;
+    const Box& box = boxes[node];
+    if (box.alive == 0 || box.outside(tri)) return false;
+    if (node < leaves) return treeBlocks(tri, next, 2 * node) || treeBlocks(tri, next, 2 * node + 1);
+    for (std::size_t i = firstPoint(node - leaves); i < firstPoint(node - leaves + 1); i++) {
+        Node* p = reflex[i];
+        if (p->leaf == 0) continue;
+        // a corner that is no longer reflex never becomes so again
+        if (area(p->prev, p, p->next) < 0)
+            leaveTree(p);
+        else if (p != next && blocks(tri, p))
+            return true;
     }
-
-    // then look for points in decreasing z-order
-    p = ear->prevZ;
-
-    while (p && p->z >= minZ) {
-        if (p != ear->next && tri.inBBox(p->x, p->y) && tri.containsPointExceptFirst(p->x, p->y) &&
-            area(p->prev, p, p->next) >= 0)
-            return false;
-        p = p->prevZ;
-    }
-
-    return true;
+    return false;
 }
 
 // go through all polygon nodes and cure small local self-intersections
@@ -492,15 +590,15 @@ typename Earcut<N>::Node* Earcut<N>::cureLocalIntersections(Node* start) {
     Node* p = start;
     bool cured = false;
     do {
+        spend(1);
         Node* a = p->prev;
         Node* b = p->next->next;
 
         // a self-intersection where edge (v[i-1],v[i]) intersects (v[i+1],v[i+2]);
         // includeBoundary=false so a mere collinear touch isn't treated as a crossing
         if (intersects(a, p, p->next, b, false) && locallyInside(a, b) && locallyInside(b, a)) {
-            indices.emplace_back(a->i);
-            indices.emplace_back(p->i);
-            indices.emplace_back(b->i);
+            emit(p, p->next, b);
+            emit(a, p, b);
 
             // remove two nodes involved
             removeNode(p);
@@ -517,12 +615,12 @@ typename Earcut<N>::Node* Earcut<N>::cureLocalIntersections(Node* start) {
 
 // try splitting polygon into two and triangulate them independently
 template <typename N>
-void Earcut<N>::splitEarcut(Node* start) {
+void Earcut<N>::splitEarcut(Node* start, int depth) {
     // look for a valid diagonal that divides the polygon into two
     Node* a = start;
     do {
         Node* b = a->next->next;
-        while (b != a->prev) {
+        while (b != a->prev && spend(1)) {
             if (a->i != b->i && isValidDiagonal(a, b)) {
                 // split the polygon in two by the diagonal
                 Node* c = splitPolygon(a, b);
@@ -532,14 +630,15 @@ void Earcut<N>::splitEarcut(Node* start) {
                 c = filterPoints(c, c->next);
 
                 // run earcut on each half
-                earcutLinked(a);
-                earcutLinked(c);
+                earcutLinked(a, depth + 1);
+                earcutLinked(c, depth + 1);
                 return;
             }
             b = b->next;
         }
         a = a->next;
-    } while (a != start);
+    } while (a != start && !exhausted);
+    fanRest(start);
 }
 
 // link every hole into the outer loop, producing a single-ring polygon without holes
@@ -774,70 +873,6 @@ bool Earcut<N>::sectorContainsSector(const Node* m, const Node* p) {
     return area(m->prev, m, p->prev) < 0 && area(p->next, m, m->next) < 0;
 }
 
-// interlink polygon nodes in z-order
-template <typename N>
-void Earcut<N>::indexCurve(Node* start) {
-    assert(start);
-    Node* p = start;
-
-    do {
-        // always (re)compute: z may still hold a block index left over from eliminateHoles
-        p->z = zOrder(p->x, p->y);
-        p->prevZ = p->prev;
-        p->nextZ = p->next;
-        p = p->next;
-    } while (p != start);
-
-    p->prevZ->nextZ = nullptr;
-    p->prevZ = nullptr;
-
-    sortLinked(p);
-}
-
-// Sort the z-linked ring by z-order. Upstream earcut replaced its linked merge sort with an
-// array sort (materialize node refs → sort → relink); in C++ std::sort over a contiguous
-// Node* buffer inlines the comparator fully and beats both a linked merge sort and a hand radix
-// (measured on the MVT tiles fixture) — JS's rejection of native Array.sort does not transfer.
-template <typename N>
-typename Earcut<N>::Node* Earcut<N>::sortLinked(Node* list) {
-    assert(list);
-    // list is a null-terminated nextZ chain (see indexCurve); walk it into the scratch buffer
-    sortBuffer.clear();
-    for (Node* p = list; p; p = p->nextZ) sortBuffer.push_back(p);
-
-    std::sort(sortBuffer.begin(), sortBuffer.end(), [](const Node* a, const Node* b) { return a->z < b->z; });
-
-    // relink in sorted order
-    Node* prev = nullptr;
-    for (Node* p : sortBuffer) {
-        p->prevZ = prev;
-        if (prev) prev->nextZ = p;
-        prev = p;
-    }
-    prev->nextZ = nullptr;
-    return sortBuffer.front();
-}
-
-// z-order of a Vertex given coords and size of the data bounding box
-template <typename N>
-int32_t Earcut<N>::zOrder(const double x_, const double y_) {
-    // coords are transformed into non-negative 15-bit integer range
-    int32_t x = static_cast<int32_t>((x_ - minX) * inv_size);
-    int32_t y = static_cast<int32_t>((y_ - minY) * inv_size);
-
-    x = (x | (x << 8)) & 0x00FF00FF;
-    x = (x | (x << 4)) & 0x0F0F0F0F;
-    x = (x | (x << 2)) & 0x33333333;
-    x = (x | (x << 1)) & 0x55555555;
-
-    y = (y | (y << 8)) & 0x00FF00FF;
-    y = (y | (y << 4)) & 0x0F0F0F0F;
-    y = (y | (y << 2)) & 0x33333333;
-    y = (y | (y << 1)) & 0x55555555;
-
-    return x | (y << 1);
-}
-
 // find the leftmost node of a polygon ring
 template <typename N>
 typename Earcut<N>::Node* Earcut<N>::getLeftmost(Node* start) {
@@ -924,6 +959,7 @@ bool Earcut<N>::intersectsPolygon(const Node* a, const Node* b) {
 
     const Node* p = a;
     do {
+        if (!spend(1)) return true;
         const Node* n = p->next;
         if ((p->x > diagMaxX && n->x > diagMaxX) || (p->x < diagMinX && n->x < diagMinX) ||
             (p->y > diagMaxY && n->y > diagMaxY) || (p->y < diagMinY && n->y < diagMinY)) {
@@ -952,6 +988,7 @@ bool Earcut<N>::middleInside(const Node* a, const Node* b) {
     double px = (a->x + b->x) / 2;
     double py = (a->y + b->y) / 2;
     do {
+        spend(1);
         const Node* n = p->next;
         if (((p->y > py) != (n->y > py)) && (px < (n->x - p->x) * (py - p->y) / (n->y - p->y) + p->x)) inside = !inside;
         p = n;
@@ -1010,8 +1047,7 @@ void Earcut<N>::removeNode(Node* p) {
     p->next->prev = p->prev;
     p->prev->next = p->next;
 
-    if (p->prevZ) p->prevZ->nextZ = p->nextZ;
-    if (p->nextZ) p->nextZ->prevZ = p->prevZ;
+    if (p->leaf > 0) leaveTree(p);
 
     // keep the hole-bridge index's block bboxes covering the healed prev->next edge
     if (indexActive) growBlock(p->prev, p->next);
