@@ -103,9 +103,10 @@ TEST(GltfErrors, RefusesBadTriangles) {
   GltfFile nan = square();
   const float bad = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(&nan.binary[16], &bad, sizeof bad);
-  expect_error(nan, SOBB_ERROR_NOT_FINITE, "meshes[0].primitives[0], vertex 1");
-  expect_refused("/nodes/0/scale", {1e30, 1, 1}, SOBB_ERROR_TOO_LARGE, "vertex 1");
-  expect_refused("/nodes/0/scale", {1e300, 1e300, 1}, SOBB_ERROR_NOT_FINITE, "vertex 1");
+  expect_error(nan, SOBB_ERROR_NOT_FINITE, "meshes[0].primitives[0]: corner 1: vertex (");
+  expect_refused("/nodes/0/scale", {1e30, 1, 1}, SOBB_ERROR_TOO_LARGE, "corner 1: vertex (1e+30");
+  expect_refused("/nodes/0/scale", {1e300, 1e300, 1}, SOBB_ERROR_NOT_FINITE,
+                 "corner 1: vertex (inf");
   expect_refused("/meshes/0/primitives/0/mode", 1, SOBB_ERROR_EMPTY, "no triangles");
 }
 

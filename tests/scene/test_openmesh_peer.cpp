@@ -26,7 +26,7 @@ namespace {
 
 using PeerMesh = OpenMesh::PolyMesh_ArrayKernelT<>;
 
-// A bumpy grid of triangles and quads: manifold, so that a half-edge mesh keeps all of it.
+// A bumpy grid of triangles and convex quads: manifold, so that a half-edge mesh keeps all of it.
 PeerMesh make_grid(uint32_t seed, bool quads) {
   constexpr int kSide = 12;
   std::mt19937 random(seed);
@@ -35,8 +35,8 @@ PeerMesh make_grid(uint32_t seed, bool quads) {
   std::vector<PeerMesh::VertexHandle> grid;
   for (int y = 0; y <= kSide; ++y) {
     for (int x = 0; x <= kSide; ++x) {
-      grid.push_back(mesh.add_vertex(
-          {static_cast<float>(x) + jitter(), static_cast<float>(y) + jitter(), -1e3F * jitter()}));
+      grid.push_back(mesh.add_vertex({static_cast<float>(x) + jitter(),
+                                      static_cast<float>(y) + jitter(), -1e3F + jitter() / 8}));
     }
   }
   for (int y = 0; y < kSide; ++y) {

@@ -160,7 +160,8 @@ void SceneWriter::add_larger_polygon(std::span<const uint64_t> corners) {
   }
   for (const uint64_t corner : corners) points_.push_back(widen(&scene_.vertices[3 * corner]));
   if (fan_covers(points_)) {
-    for (size_t i = 2; i < corners.size(); ++i) add_triangle(corners[0], corners[i - 1], corners[i]);
+    for (size_t i = 2; i < corners.size(); ++i)
+      add_triangle(corners[0], corners[i - 1], corners[i]);
   } else if (corners.size() == 4) {
     // The fan about the second corner is the only other way.
     add_triangle(corners[1], corners[2], corners[3]);
@@ -237,9 +238,19 @@ void SceneWriter::expect(uint64_t vertices, uint64_t triangles) {
   }
 }
 
+// What was passed over is the likely cause.
+void SceneWriter::refuse_empty() const {
+  std::string why;
+  for (const SceneNote& note : scene_.notes) {
+    why += "; passed over " + std::to_string(note.count) + " (" + note_cause_name(note.cause) +
+           "): " + note.first;
+  }
+  fail(SOBB_ERROR_EMPTY, "%s: no triangles%s", name_.c_str(), why.c_str());
+}
+
 void SceneWriter::finish() {
   end_mesh();
-  if (scene_.indices.empty()) fail(SOBB_ERROR_EMPTY, "%s: no triangles", name_.c_str());
+  if (scene_.indices.empty()) refuse_empty();
   clear_unusable();
   measure(scene_, progress_, kReadShare);
 }

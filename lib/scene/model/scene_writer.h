@@ -71,8 +71,8 @@ class SceneWriter {
   // Adds a polygon: corners are indices into all vertices so far. It becomes as many triangles as
   // it has corners, less two: the fan about its first corner where that covers it, others where not
   // (polygon.h). One of fewer than three corners is passed over with a note. `place` as above.
-  // Errors: INDEX, and NOT_FINITE or TOO_LARGE for a vertex that no triangle may use (corner, vertex
-  // and place named); TOO_LARGE for too many triangles; MEMORY_LIMIT.
+  // Errors: INDEX, and NOT_FINITE or TOO_LARGE for a vertex that no triangle may use (corner,
+  // vertex and place named); TOO_LARGE for too many triangles; MEMORY_LIMIT.
   void add_polygon(std::span<const uint64_t> corners, const char* place) {
     add_polygon(corners, [place] { return std::string(place); });
   }
@@ -141,6 +141,7 @@ class SceneWriter {
   static std::string short_face(size_t corners, const std::string& place);
   [[noreturn]] void refuse_polygon(std::span<const uint64_t> corners,
                                    const std::string& place) const;
+  [[noreturn]] void refuse_empty() const;
   [[noreturn]] void refuse_memory(uint64_t bytes) const;
   void grow_vertices();
   void grow_indices();

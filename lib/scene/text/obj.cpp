@@ -84,10 +84,9 @@ class ObjReader {
     if (index > before) read_all_vertices();
     const auto last = static_cast<int64_t>(vertices_read());
     if (error != std::errc() || index == 0 || index > last || index < -before) {
-      text_.fail_here(SOBB_ERROR_INDEX,
-                      "corner \"%s\" names no vertex: there are %lld, %lld of them so far",
-                      quote(word).c_str(), static_cast<long long>(last),
-                      static_cast<long long>(before));
+      text_.fail_here(
+          SOBB_ERROR_INDEX, "corner \"%s\" names no vertex: there are %lld, %lld of them so far",
+          quote(word).c_str(), static_cast<long long>(last), static_cast<long long>(before));
     }
     return first_vertex_ + static_cast<uint64_t>(index > 0 ? index - 1 : before + index);
   }

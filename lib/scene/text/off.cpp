@@ -78,8 +78,8 @@ Counts read_counts(TextReader& text) {
   counts.faces = text.count("the count of faces", UINT32_MAX);
   if (text.at_line_end()) {
     TextReader ahead = text;
-    const bool alone = own_lines && ahead.next_line_with_words() && !ahead.word().empty() &&
-                       ahead.at_line_end();
+    const bool alone =
+        own_lines && ahead.next_line_with_words() && !ahead.word().empty() && ahead.at_line_end();
     if (!alone) return counts;
     text.next_line_with_words();
   }

@@ -13,8 +13,8 @@
 namespace sobb {
 namespace {
 
-// An element whose items are lists of corners: faces or triangle strips. Properties are indices into
-// their element's list.
+// An element whose items are lists of corners: faces or triangle strips. Properties are indices
+// into their element's list.
 struct CornerLists {
   const PlyElement* element = nullptr;
   size_t corners = 0;

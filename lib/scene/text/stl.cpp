@@ -61,14 +61,17 @@ void read_binary(std::string_view bytes, uint64_t triangles, SceneWriter& writer
   if (surplus == 0) return;
   writer.note(
       SOBB_NOTE_SURPLUS,
-      [&] { return std::to_string(surplus) + " bytes after triangle " + std::to_string(triangles); },
+      [&] {
+        return std::to_string(surplus) + " bytes after triangle " + std::to_string(triangles);
+      },
       surplus);
 }
 
 // Reads ASCII word by word: writers agree neither on the lines nor on how statements end.
 class AsciiReader {
  public:
-  AsciiReader(std::string_view bytes, SceneWriter& writer) : text_(bytes, writer), writer_(writer) {}
+  AsciiReader(std::string_view bytes, SceneWriter& writer)
+      : text_(bytes, writer), writer_(writer) {}
 
   void read() {
     for (std::string_view word = text_.word_of_any_line(); !word.empty();
