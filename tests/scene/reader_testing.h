@@ -44,6 +44,27 @@ inline void expect_error(FormatReader reader, std::string_view bytes, sobb_statu
   EXPECT_TRUE(message.starts_with(kPath + ": ")) << message;
 }
 
+// The scene's notes, as "cause, count, text".
+inline std::vector<std::string> notes_of(const Scene& scene) {
+  std::vector<std::string> notes;
+  for (const SceneNote& note : scene.notes) {
+    notes.push_back(std::to_string(note.cause) + ", " + std::to_string(note.count) + ", " +
+                    note.first);
+  }
+  return notes;
+}
+using Notes = std::vector<std::string>;
+
+// Twice the sum of the triangles' areas.
+inline double double_area(const Scene& scene) {
+  double sum = 0;
+  for (size_t i = 0; i < scene.indices.size(); i += 3) {
+    const auto corner = [&](size_t k) { return widen(&scene.vertices[3 * scene.indices[i + k]]); };
+    sum += length(cross(corner(1) - corner(0), corner(2) - corner(0)));
+  }
+  return sum;
+}
+
 // Reads bytes that may be anything, and expects a scene whose indices are in range or an Error.
 // Returns whether it was a scene.
 inline bool read_hostile(FormatReader reader, std::string_view bytes) {

@@ -109,6 +109,41 @@ TEST_F(Load, TakesViewsInTheDocumentedOrder) {
   EXPECT_EQ(load(glb, others.c_str()).views[0].vfov_degrees, 30);
 }
 
+// Another program's file of that name is no fault of the scene, as long as nobody asks for it.
+TEST_F(Load, NotesForeignViewsBesideTheScene) {
+  const std::string glb = write_glb_with_camera("camera.glb");
+  const std::string obj = write("scene.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const char* text : {R"([{"id": 0, "img_name": "a", "width": 10}])", "", "no JSON", "3",
+                           "null", R"({"scene": {"fov": 3}, "camera": 7})", "\xFF\xFE{",
+                           R"({"scene": [{"eye": [1, 2]}], "camera": [{}]})"}) {
+    SCOPED_TRACE(text);
+    const std::string views = write("cameras.json", text);
+    for (const std::string& source : {glb, obj, obj + "@30", obj + "^4"}) {
+      const Scene scene = load(source);
+      ASSERT_EQ(scene.notes.size(), 1U);
+      EXPECT_EQ(scene.notes[0].cause, SOBB_NOTE_VIEWS);
+      EXPECT_EQ(scene.notes[0].count, 1U);
+      EXPECT_TRUE(scene.notes[0].first.starts_with(views + ": ")) << scene.notes[0].first;
+      EXPECT_EQ(scene.default_view, source != glb);
+      EXPECT_EQ(scene.views.size(), 1U);
+    }
+    expect_error(obj, SOBB_ERROR_SCENE_SYNTAX, "cameras.json: ", views.c_str());
+  }
+  std::filesystem::remove(path("cameras.json"));
+  std::filesystem::create_directory(path("cameras.json"));
+  EXPECT_EQ(load(obj).notes[0].cause, SOBB_NOTE_VIEWS);
+  std::filesystem::remove(path("cameras.json"));
+  EXPECT_TRUE(load(obj).notes.empty());
+}
+
+TEST_F(Load, UnusedVerticesDoNotKeepASceneFromTurning) {
+  const std::string obj =
+      write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv inf 0 0\nv nan 0 0\nv 1e30 0 0\nf 1 2 3\n");
+  for (const char* how : {"@30", "^4", "^4@30"}) {
+    EXPECT_EQ(load(obj + how).notes[0].count, 3U) << how;
+  }
+}
+
 TEST_F(Load, ReadsViewsOfBuiltInScenes) {
   const std::string mine = write("mine.json", std::string(R"({"city": [)") + kView + "]}");
   EXPECT_EQ(load("builtin:city:200@30", mine.c_str()).views[0].vfov_degrees, 30);
@@ -267,6 +302,56 @@ TEST_F(Load, GivesCWhatItLoaded) {
   sobb_scene_release(scene);
   sobb_scene_release(scene);
   sobb_scene_release(nullptr);
+}
+
+TEST_F(Load, GivesCItsNotes) {
+  const std::string obj = write("a.obj",
+                                "v 0 0 0\nv 1 0 0\nv 0 1 0 1 2 3 4 5 6\nv nan 0 0\nf 1\nf 1 2\n"
+                                "f 1 2 3\n");
+  sobb_scene* scene = nullptr;
+  ASSERT_EQ(sobb_scene_load(obj.c_str(), nullptr, &scene), SOBB_OK) << sobb_last_error();
+  sobb_scene_info info{};
+  info.struct_size = sizeof info;
+  ASSERT_EQ(sobb_scene_get_info(scene, &info), SOBB_OK);
+  ASSERT_EQ(info.note_count, 3U);
+  struct Expected {
+    uint32_t cause;
+    uint64_t count;
+    const char* message;
+    const char* name;
+  };
+  const Expected expected[] = {
+      {SOBB_NOTE_SHORT_FACE, 2, "line 5: a face of 1 corner", "faces of fewer than three corners"},
+      {SOBB_NOTE_UNUSED_VERTEX, 1, "line 4: vertex (nan, 0, 0) is not finite",
+       "unusable vertices that no triangle uses"},
+      {SOBB_NOTE_SURPLUS, 2, "line 3: \"5\" is more than the file declares",
+       "data behind what the file declares"}};
+  for (uint64_t i = 0; i < 3; ++i) {
+    sobb_scene_note note{};
+    note.struct_size = sizeof note;
+    ASSERT_EQ(sobb_scene_get_note(scene, i, &note), SOBB_OK);
+    EXPECT_EQ(note.cause, expected[i].cause);
+    EXPECT_EQ(note.count, expected[i].count);
+    EXPECT_STREQ(note.message, expected[i].message);
+    EXPECT_STREQ(sobb_note_cause_name(note.cause), expected[i].name);
+  }
+  sobb_scene_note note{};
+  EXPECT_EQ(sobb_scene_get_note(scene, 0, &note), SOBB_ERROR_INVALID_ARGUMENT);  // no struct_size
+  note.struct_size = sizeof note;
+  EXPECT_EQ(sobb_scene_get_note(scene, 3, &note), SOBB_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(sobb_scene_get_note(nullptr, 0, &note), SOBB_ERROR_INVALID_ARGUMENT);
+  EXPECT_EQ(sobb_scene_get_note(scene, 0, nullptr), SOBB_ERROR_INVALID_ARGUMENT);
+  EXPECT_STREQ(sobb_note_cause_name(0), "unknown cause");
+  EXPECT_STREQ(sobb_note_cause_name(99), "unknown cause");
+  for (uint32_t cause = SOBB_NOTE_SHORT_FACE; cause <= SOBB_NOTE_VIEWS; ++cause) {
+    EXPECT_STRNE(sobb_note_cause_name(cause), "unknown cause");
+  }
+  // A caller that was built before the notes.
+  sobb_scene_info shorter{};
+  shorter.struct_size = offsetof(sobb_scene_info, note_count);
+  ASSERT_EQ(sobb_scene_get_info(scene, &shorter), SOBB_OK);
+  EXPECT_EQ(shorter.note_count, 0U);
+  sobb_scene_release(scene);
 }
 
 TEST_F(Load, GivesCItsErrors) {

@@ -10,6 +10,8 @@ namespace sobb {
 namespace {
 
 using reader_testing::Indices;
+using reader_testing::Notes;
+using reader_testing::notes_of;
 
 const char kVertices[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 2 2\n";
 
@@ -48,8 +50,69 @@ TEST(Obj, NegativeIndicesCountFromTheLatestVertex) {
   EXPECT_EQ(scene.indices, (Indices{0, 1, 2, 1, 2, 3}));
 }
 
-TEST(Obj, MakesFansOfPolygons) {
-  EXPECT_EQ(read_faces("f 1 2 3 4 5\n").indices, (Indices{0, 1, 2, 0, 2, 3, 0, 3, 4}));
+TEST(Obj, MakesFansOfConvexPolygons) {
+  EXPECT_EQ(read("v 0 0 0\nv 2 0 0\nv 3 1 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4 5\n").indices,
+            (Indices{0, 1, 2, 0, 2, 3, 0, 3, 4}));
+}
+
+TEST(Obj, SplitsConcavePolygonsByTheirArea) {
+  const std::string ell = "v 4 0 0\nv 4 1 0\nv 1 1 0\nv 1 7 0\nv 0 7 0\nv 0 0 0\n";
+  const Scene scene = read(ell + "f 1 2 3 4 5 6\n");  // its fan covers 22
+  EXPECT_EQ(scene.indices.size(), 3U * 4);
+  EXPECT_EQ(reader_testing::double_area(scene), 2 * 10);
+  const Scene dart = read("v 0 0 0\nv 3 0 0\nv 1 1 0\nv 0 3 0\nf 2 3 4 1\nf 1 2 3 4\n");
+  EXPECT_EQ(reader_testing::double_area(dart), 2 * 2 * 3);
+}
+
+TEST(Obj, PassesOverShortFaces) {
+  for (const char* face : {"f 1 2\n", "f 1\n", "f\n", "f 1/1 2/2 # 3\n", "fo 1 1\n"}) {
+    const Scene scene = read_faces(std::string(face) + "f 1 2 3\nf\n");
+    EXPECT_EQ(scene.indices, (Indices{0, 1, 2}));
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_EQ(scene.notes[0].cause, SOBB_NOTE_SHORT_FACE);
+    EXPECT_EQ(scene.notes[0].count, 2U);
+  }
+  EXPECT_EQ(notes_of(read_faces("f 1 2\nf 1 2 3\n")), (Notes{"1, 1, line 6: a face of 2 corners"}));
+  EXPECT_EQ(notes_of(read_faces("f 1\nf 1 2 3\n")), (Notes{"1, 1, line 6: a face of 1 corner"}));
+  expect_error(
+      std::string(kVertices) + "f 1 2\nf 2 3\n", SOBB_ERROR_EMPTY,
+      "no triangles; passed over 2 (faces of fewer than three corners): line 6: a face of 2");
+}
+
+TEST(Obj, PassesOverSurplusValuesOfVertices) {
+  const Scene scene = read("v 0 0 0 1 2 3 4 5\nv 1 0 0 1 red x y z\nv 1 1 0\nf 1 2 3\n");
+  EXPECT_EQ(scene.vertices, (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0}));
+  EXPECT_EQ(notes_of(scene), (Notes{"3, 2, line 1: \"5\" is more than the file declares"}));
+}
+
+TEST(Obj, FacesMayComeBeforeTheirVertices) {
+  EXPECT_EQ(read("f 1 2 3\n" + std::string(kVertices) + "f 3 4 -1\n").indices,
+            (Indices{0, 1, 2, 2, 3, 4}));
+  // Negative indices count from the latest vertex so far, whatever has been read ahead.
+  const Scene scene = read(
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 5\nf -1 -2 -3\nv 4 4 4\nf -1 -2 -3\nv 5 5 5\nf -1 2 3\n");
+  EXPECT_EQ(scene.indices, (Indices{0, 1, 4, 2, 1, 0, 3, 2, 1, 4, 1, 2}));
+  EXPECT_EQ(scene.vertices.size(), 15U);
+  expect_error("v 0 0 0\nf 1 2 4\nv 1 0 0\nv 0 1 0\n", SOBB_ERROR_INDEX,
+               "line 2: corner \"4\" names no vertex: there are 3, 1 of them so far");
+  expect_error("v 0 0 0\nf 1 2 3\nv 1 0 0\nv 0 x 0\n", SOBB_ERROR_SCENE_SYNTAX, "line 4: \"x\"");
+}
+
+TEST(Obj, TakesCapitals) {
+  EXPECT_EQ(read("V 0 0 0\nV 1 0 0\nV 0 1 0\nG a\nF 1 2 3\nO b\nF 1 2 3\n").meshes.size(), 2U);
+}
+
+TEST(Obj, RefusesWideCharactersByName) {
+  const std::string text = std::string(kVertices) + "f 1 2 3\n";
+  for (const bool big : {false, true}) {
+    for (const bool mark : {false, true}) {
+      std::string wide = !mark ? "" : big ? "\xFE\xFF" : "\xFF\xFE";
+      for (const char c : text) wide += big ? std::string{'\0', c} : std::string{c, '\0'};
+      expect_error(wide, SOBB_ERROR_SCENE_UNSUPPORTED, "text in UTF-16: only ASCII and UTF-8");
+    }
+  }
+  expect_error(std::string("\xFF\xFE\0\0v\0\0\0", 8), SOBB_ERROR_SCENE_UNSUPPORTED, "UTF-32");
+  expect_error(std::string("\0\0\xFE\xFF\0\0\0v", 8), SOBB_ERROR_SCENE_UNSUPPORTED, "UTF-32");
 }
 
 TEST(Obj, KeepsDegenerateAndEqualFaces) {
@@ -93,7 +156,7 @@ TEST(Obj, TakesEveryLineEnd) {
     EXPECT_EQ(scene.indices, (Indices{0, 1, 2, 1, 2, 3}));
     EXPECT_EQ(scene.vertices.size(), 15U);
     EXPECT_EQ(scene.meshes.back().name, "b");
-    expect_error(text + line_end + "f 1 2", SOBB_ERROR_SCENE_SYNTAX, "line 11:");
+    expect_error(text + line_end + "f 1 x", SOBB_ERROR_SCENE_SYNTAX, "line 11:");
   }
 }
 
@@ -105,10 +168,9 @@ TEST(Obj, NamesTheLineOfASyntaxError) {
   expect_error(start + "v 0 0 0x10\n", syntax, "line 6: \"0x10\"");
   expect_error(start + "v 0 0 1.5.2\n", syntax, "line 6: \"1.5.2\"");
   expect_error(start + "v 0 0 +-1\n", syntax, "line 6: \"+-1\"");
-  expect_error(start + "v 0 0 0 red\n", syntax, "line 6: \"red\"");
-  expect_error(start + "v 0 0 0 1 2 3 4 5\n", syntax, "line 6: \"5\"");
-  expect_error(start + "f\n", syntax, "line 6: a face of 0 corners");
-  expect_error(start + "f 1 2\n", syntax, "line 6: a face of 2 corners");
+  expect_error(start + "v 0,5 0 0\n", syntax, "line 6: \"0,5\" where x should be");
+  expect_error(start + "v 0 0 1.5e\n", syntax, "line 6: \"1.5e\"");
+  expect_error(start + "v 0 0 d1\n", syntax, "line 6: \"d1\"");
   for (const char* corner : {"x", "1x", "1/x", "1/2/x", "1/2/3/4", "/1", "1.5", "-", "1/-"}) {
     expect_error(start + "f 1 2 " + corner + "\n", syntax,
                  "line 6: \"" + std::string(corner) + "\" is no corner");
@@ -120,18 +182,34 @@ TEST(Obj, NamesTheLineOfAnIndexError) {
     expect_error(std::string(kVertices) + "\nf 1 2 " + corner, SOBB_ERROR_INDEX,
                  "line 7: corner \"" + std::string(corner) + "\"");
   }
-  expect_error("f 1 2 3\n" + std::string(kVertices), SOBB_ERROR_INDEX, "line 1:");
 }
 
 TEST(Obj, RefusesCoordinatesOutOfRange) {
   const std::string start = kVertices;
-  for (const char* number : {"nan", "-nan", "inf", "-Infinity"}) {
-    expect_error(start + "v 0 " + number + " 0\n", SOBB_ERROR_NOT_FINITE, "line 6: vertex");
+  for (const char* number : {"nan", "-nan", "inf", "-Infinity", "nan(ind)", "1.#QNAN", "-1.#IND",
+                             "1.#INF", "-1.#INF00", "1.#SNAN"}) {
+    const std::string vertex = start + "v 0 " + number + " 0\n";
+    expect_error(vertex + "f 1 2 6\n", SOBB_ERROR_NOT_FINITE, "line 7: corner 2: vertex (0, ");
+    const Scene scene = read(vertex + "f 1 2 3\n");
+    EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{1, 1, 0})) << number;
+    ASSERT_EQ(scene.notes.size(), 1U);
+    EXPECT_EQ(scene.notes[0].cause, SOBB_NOTE_UNUSED_VERTEX);
+    EXPECT_TRUE(scene.notes[0].first.starts_with("line 6: vertex (0, ")) << scene.notes[0].first;
+    EXPECT_TRUE(scene.notes[0].first.ends_with(" is not finite")) << scene.notes[0].first;
   }
   for (const char* number : {"1e19", "-1e39", "1e400", "-1e99999999999999999999",
                              "10000000000000000000000000000000000000000000000000.5"}) {
-    expect_error(start + "v 0 " + number + " 0\n", SOBB_ERROR_TOO_LARGE, "line 6: vertex");
+    const std::string vertex = start + "v 0 " + number + " 0\n";
+    expect_error(vertex + "f 6 2 3\n", SOBB_ERROR_TOO_LARGE, "line 7: corner 0: vertex (0, ");
+    EXPECT_EQ(read(vertex + "v nan 0 0\nf 1 2 3\n").notes[0].count, 2U);
   }
+}
+
+TEST(Obj, TakesExponentsOfFortran) {
+  const Scene scene = read("v 1.5D+01 -2d-1 3D0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(scene.vertices[0], 15.0F);
+  EXPECT_EQ(scene.vertices[1], -0.2F);
+  EXPECT_EQ(scene.vertices[2], 3.0F);
 }
 
 TEST(Obj, NumbersTooSmallForFloatAreZero) {
@@ -142,8 +220,9 @@ TEST(Obj, NumbersTooSmallForFloatAreZero) {
     const Scene scene = read("v " + number + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     EXPECT_EQ(scene.vertices[0], 0.0F) << number;
   }
-  expect_error("v 1" + zeros + " 0 0\n", SOBB_ERROR_TOO_LARGE, "line 1: vertex");
-  expect_error("v 0." + zeros + "1e900 0 0\n", SOBB_ERROR_TOO_LARGE, "line 1: vertex");
+  const std::string face = "f 1 1 1\n";
+  expect_error("v 1" + zeros + " 0 0\n" + face, SOBB_ERROR_TOO_LARGE, "line 2: corner 0: vertex");
+  expect_error("v 0." + zeros + "1e900 0 0\n" + face, SOBB_ERROR_TOO_LARGE, "line 2: corner 0");
 }
 
 TEST(Obj, WithoutTrianglesIsEmpty) {

@@ -4,12 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/reader_testing.h"
 
 namespace sobb {
 namespace {
 
 using reader_testing::Indices;
+using reader_testing::Notes;
+using reader_testing::notes_of;
 
 const char kSquare[] = "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n3 0 1 2\n3 0 2 3\n";
 
@@ -33,8 +37,8 @@ TEST(Off, TakesCommentsBlankLinesAndCountsOnTheFirstLine) {
 }
 
 TEST(Off, KeepsDegenerateFacesAndMakesFans) {
-  const Scene scene = read("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 1 1 1\n5 0 1 2 1 0\n3 0 1 2");
-  EXPECT_EQ(scene.indices, (Indices{1, 1, 1, 0, 1, 2, 0, 2, 1, 0, 1, 0, 0, 1, 2}));
+  const Scene scene = read("OFF\n3 3 0\n0 0 0\n1 0 0\n0 1 0\n3 1 1 1\n5 0 1 2 2 2\n3 0 1 2");
+  EXPECT_EQ(scene.indices, (Indices{1, 1, 1, 0, 1, 2, 0, 2, 2, 0, 2, 2, 0, 1, 2}));
 }
 
 TEST(Off, PassesOverColoursNormalsAndTextureCoordinates) {
@@ -53,11 +57,63 @@ TEST(Off, PassesOverColoursNormalsAndTextureCoordinates) {
                                                         {"STCNOFF", " 0 0 0 0 1 1 1 1"}}) {
     EXPECT_EQ(read(square(keyword, extras)).indices, (Indices{0, 1, 2, 2, 1, 0})) << keyword;
   }
-  const auto syntax = SOBB_ERROR_SCENE_SYNTAX;
-  expect_error(square("OFF", " 1"), syntax, "line 3: \"1\" where the line's end");
-  expect_error(square("NOFF", " 1 2"), syntax, "line 3: the line ends");
-  expect_error(square("NOFF", " 1 2 3 4"), syntax, "line 3: \"4\"");
-  expect_error(square("COFF", " 1 2 red"), syntax, "line 3: \"red\"");
+  // Colours that the keyword does not announce, and any after faces, whatever they are.
+  EXPECT_EQ(notes_of(read(square("OFF", " 1 0 0"))),
+            (Notes{"3, 9, line 3: \"1\" is more than the file declares"}));
+  EXPECT_EQ(notes_of(read(square("NOFF", " 1 2 3 4"))),
+            (Notes{"3, 3, line 3: \"4\" is more than the file declares"}));
+  EXPECT_EQ(notes_of(read(square("COFF", " 1 2 red"))), Notes{});
+  EXPECT_EQ(notes_of(read(square("NOFF", ""))), Notes{});
+}
+
+TEST(Off, TakesEveryBeginning) {
+  const std::string rest = "\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+  for (const char* begin : {"OFF4 2 0",
+                            "OFF4 2",
+                            "OFF 4 2",
+                            "OFF\n4 2",
+                            "OFF\n4 2 # no edges",
+                            "off\n4 2 0",
+                            "Off4 2 0",
+                            "4 2 0",
+                            "4 2",
+                            "# c\n\n4 2 0",
+                            "OFF\n4\n2\n0",
+                            "OFF\n4\n2",
+                            "OFF\r4 2 0",
+                            "OFF\r\n4 2 0",
+                            "\xEF\xBB\xBFOFF\n4 2 0",
+                            "COFF4 2 0",
+                            "noff\n4 2 0",
+                            "coff\n4 2 0",
+                            "\n \nOFF\n\n# c\n4 2 0",
+                            "OFF\n4 2 5"}) {
+    const Scene scene = read(begin + rest);
+    EXPECT_EQ(scene.indices, (Indices{0, 1, 2, 0, 2, 3})) << begin;
+    EXPECT_EQ(scene.vertices.size(), 12U) << begin;
+    EXPECT_EQ(notes_of(scene), Notes{}) << begin;
+  }
+  EXPECT_EQ(notes_of(read("OFF\n4 2 0 7" + rest)),
+            (Notes{"3, 1, line 2: \"7\" is more than the file declares"}));
+}
+
+TEST(Off, PassesOverShortFacesAndWhatFollowsTheLast) {
+  const std::string vertices = "OFF\n3 4 0\n0 0 0\n1 0 0\n0 1 0\n";
+  const Scene scene = read(vertices + "2 0 1\n3 0 1 2\n0\n1 2 9 9 9\n4 surplus\nwords\n");
+  EXPECT_EQ(scene.indices, (Indices{0, 1, 2}));
+  EXPECT_EQ(notes_of(scene), (Notes{"1, 3, line 6: a face of 2 corners",
+                                    "3, 3, line 10: \"4\" is more than the file declares"}));
+}
+
+TEST(Off, UnusableVerticesThatNoFaceUsesAreCounted) {
+  const std::string text = "OFF\n5 1 0\n0 0 0\n1 0 0\n1e30 nan inf\n0 1 0\n0 -1e19 0\n3 0 1 ";
+  const Scene scene = read(text + "3");
+  EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{1, 1, 0}));
+  EXPECT_EQ(notes_of(scene), (Notes{"2, 2, line 5: vertex (1e+30, nan, inf) is not finite"}));
+  for (const float x : scene.vertices) EXPECT_LE(std::fabs(x), 1);
+  expect_error(text + "2", SOBB_ERROR_NOT_FINITE, "line 8: corner 2: vertex (1e+30, nan, inf)");
+  expect_error(text + "4", SOBB_ERROR_TOO_LARGE,
+               "line 8: corner 2: vertex (0, -1e+19, 0) is beyond");
 }
 
 TEST(Off, RefusesOtherFormsByName) {
@@ -71,20 +127,19 @@ TEST(Off, RefusesOtherFormsByName) {
 
 TEST(Off, NamesTheLineOfASyntaxError) {
   const auto syntax = SOBB_ERROR_SCENE_SYNTAX;
-  for (const char* keyword : {"", "\n\n", "of", "XOFF", "CCOFF", "OFF490 1 0", "4 2 0"}) {
+  for (const char* keyword : {"", "\n\n", "of", "XOFF", "CCOFF", "ply", "-4 2 0", "solid off"}) {
     expect_error(keyword, syntax, "where OFF should be");
   }
+  expect_error("OFF490 1 0", syntax, "490 vertices and 1 faces do not fit");
+  expect_error("OFFX", syntax, "\"X\" where the count of vertices");
   const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   expect_error("OFF", syntax, "line 1:");
-  expect_error("OFF\n3 1\n", syntax, "line 2: the line ends where the count of edges");
+  expect_error("OFF\n3\n", syntax, "line 2: the line ends where the count of faces");
+  expect_error("OFF\n3 1 x\n", syntax, "line 2: \"x\" where the count of edges");
   expect_error("OFF\n3 -1 0\n", syntax, "line 2: \"-1\" where the count of faces");
-  expect_error("OFF\n3 1 0 7\n0 0 0\n", syntax, "line 2: \"7\"");
   expect_error("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", syntax, "line 4: the line ends");
   expect_error("OFF\n3 1 0\n0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", syntax, "line 4: \"x\"");
-  expect_error(vertices + "2 0 1  \n", syntax, "line 6: a face of 2 corners");
   expect_error(vertices + "4 0 1 2\n", syntax, "line 6: the line ends");
-  expect_error(vertices + "3 0 1 2 red\n", syntax, "line 6: \"red\" where a colour");
-  expect_error(vertices + "3 0 1 2\n3 0 1 2\n", syntax, "line 7: text after the last of 1 faces");
   expect_error(vertices + "#       \n\n", syntax, "line 7: the file ends before face 0 of 1");
   expect_error("OFF\n3 1 0\n0 0 0\n0 0 0\n#             \n", syntax, "before vertex 2 of 3");
 }
@@ -95,8 +150,6 @@ TEST(Off, NamesTheLineOfOtherErrors) {
     expect_error(vertices + "3 0 1 " + index, SOBB_ERROR_INDEX,
                  "line 6: there is no vertex " + std::string(index));
   }
-  expect_error("OFF\n3 1 0\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", SOBB_ERROR_NOT_FINITE, "line 3:");
-  expect_error("OFF\n3 1 0\n0 0 1e30\n1 0 0\n0 1 0\n3 0 1 2\n", SOBB_ERROR_TOO_LARGE, "line 3:");
   expect_error("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", SOBB_ERROR_EMPTY, "no triangles");
   expect_error("OFF\n0 0 0\n", SOBB_ERROR_EMPTY, "no triangles");
 }

@@ -30,8 +30,8 @@ TEST(SceneWriter, SplitsPolygonsIntoFansByMesh) {
   Scene scene;
   SceneWriter writer("file", 0, scene);
   for (const float y : {0.0F, 1.0F}) {
-    writer.add_vertex(0, y, 0, "here");
-    writer.add_vertex(1, y, 0, "here");
+    writer.add_vertex(y, y, 0, "here");
+    writer.add_vertex(1 - y, y, 0, "here");
   }
   writer.add_polygon(std::span(kCorners, 3), "here");
   writer.begin_mesh("empty");
@@ -57,14 +57,19 @@ TEST(SceneWriter, RefusesWhatNoSceneMayHave) {
   const auto vertex = [&](float x) {
     return status_of([&] { writer.add_vertex(0, x, 0, "here"); });
   };
-  EXPECT_EQ(vertex(nan), SOBB_ERROR_NOT_FINITE);
-  EXPECT_EQ(vertex(-infinite), SOBB_ERROR_NOT_FINITE);
-  EXPECT_EQ(vertex(-beyond), SOBB_ERROR_TOO_LARGE);
+  const auto face = [&](std::vector<uint64_t> corners) {
+    return status_of([&] { writer.add_polygon(corners, "here"); });
+  };
   EXPECT_EQ(vertex(0x1p60F), SOBB_OK);
-  EXPECT_EQ(status_of([&] { writer.add_polygon(std::span(kCorners, 3), "here"); }),
-            SOBB_ERROR_INDEX);
-  EXPECT_EQ(status_of([&] { writer.add_polygon(std::span(kCorners, 2), "here"); }),
-            SOBB_ERROR_SCENE_SYNTAX);
+  EXPECT_EQ(face({0, 0, 1}), SOBB_ERROR_INDEX);
+  EXPECT_EQ(vertex(nan), SOBB_OK);
+  EXPECT_EQ(vertex(-infinite), SOBB_OK);
+  EXPECT_EQ(vertex(-beyond), SOBB_OK);
+  EXPECT_EQ(face({0, 1, 0}), SOBB_ERROR_NOT_FINITE);
+  EXPECT_EQ(face({0, 0, 2}), SOBB_ERROR_NOT_FINITE);
+  EXPECT_EQ(face({3, 0, 0, 0, 0}), SOBB_ERROR_TOO_LARGE);
+  EXPECT_EQ(face({0, 4, 1}), SOBB_ERROR_INDEX);
+  EXPECT_TRUE(scene.indices.empty());
   EXPECT_EQ(status_of([&] { writer.expect(uint64_t(1) << 33, 0); }), SOBB_ERROR_TOO_LARGE);
   EXPECT_EQ(status_of([&] { writer.expect(0, ~uint64_t(0)); }), SOBB_ERROR_TOO_LARGE);
   EXPECT_EQ(status_of([&] { writer.finish(); }), SOBB_ERROR_EMPTY);
@@ -81,6 +86,29 @@ TEST(SceneWriter, MeasuresTheVerticesThatTrianglesUse) {
   EXPECT_EQ(scene.bounds_min, (std::array<float, 3>{0, 0, -3}));
   EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{3, 9, 0}));
   EXPECT_EQ(scene.degenerate_count, 1U);
+}
+
+TEST(SceneWriter, NotesWhatItPassesOver) {
+  Scene scene;
+  SceneWriter writer("file", 0, scene);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float x : {0.0F, 1.0F, nan, 2.0F, 1e30F}) writer.add_vertex(x, x * x, 0, "there");
+  for (const size_t corners : {0U, 1U, 2U}) {
+    writer.add_polygon(std::span(kCorners, corners), [&] { return std::to_string(corners); });
+  }
+  const uint64_t triangle[] = {0, 1, 3};
+  writer.add_polygon(triangle, "here");
+  writer.finish();
+  ASSERT_EQ(scene.notes.size(), 2U);
+  EXPECT_EQ(scene.notes[0].cause, SOBB_NOTE_SHORT_FACE);
+  EXPECT_EQ(scene.notes[0].count, 3U);
+  EXPECT_EQ(scene.notes[0].first, "0: a face of 0 corners");
+  EXPECT_EQ(scene.notes[1].cause, SOBB_NOTE_UNUSED_VERTEX);
+  EXPECT_EQ(scene.notes[1].count, 2U);
+  EXPECT_EQ(scene.notes[1].first, "there: vertex (nan, nan, 0) is not finite");
+  // Nobody who reads the scene meets them.
+  EXPECT_EQ(scene.vertices, (std::vector<float>{0, 0, 0, 1, 1, 0, 0, 0, 0, 2, 4, 0, 0, 0, 0}));
+  EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{2, 4, 0}));
 }
 
 TEST(SceneWriter, KeepsTheMemoryLimitWhileItGrows) {

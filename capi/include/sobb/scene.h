@@ -5,8 +5,11 @@
  *        so that a program that only traces links no importer.
  *
  * Formats, told by the file's ending: glTF 2.0 (.gltf, .glb), OBJ, PLY, STL, OFF. Every triangle of
- * the file counts, in the file's order; polygons are triangulated as fans; degenerate triangles are
- * kept and counted. Materials, textures, animation and skins are ignored, images never decoded.
+ * the file counts, in the file's order; degenerate triangles are kept and counted. A polygon of n
+ * corners becomes n - 2 triangles: the fan about its first corner where that covers it, as it does
+ * convex ones, else others that cover it. Materials, textures, animation and skins are ignored,
+ * images never decoded. A bad item that the triangles do not need costs that item and a note, never
+ * the scene: see sobb_scene_note.
  *
  * Built-in scenes: `builtin:NAME[:TRIANGLES][@DEGREES]` with NAME one of hairball, wool, pipes,
  * foliage, city, terrain; 250,000 triangles unless said, as near as the scene's parts allow and
@@ -71,7 +74,8 @@ typedef struct sobb_scene_options {
   /**
    * A JSON file of views: {"STEM": [{"eye": [x,y,z], "target": [x,y,z], "up": [x,y,z],
    * "vfov_degrees": a}, …], …}, STEM the scene file's name without folder and ending. NULL: the
-   * file `cameras.json` beside the scene, if there is one.
+   * file `cameras.json` beside the scene, if there is one; where that cannot be read as one of
+   * ours, a note says so, and the scene has its own cameras or the default view.
    */
   const char* views_path;
   /**

@@ -65,23 +65,25 @@ std::errc parse_integer(std::string_view word, uint64_t& value) {
 
 namespace {
 
-// The notations of numbers that std::from_chars does not take: an exponent of Fortran's, as in
-// 1.5D+00, and what Microsoft's C once wrote for not-a-number and infinity, as in -1.#IND.
+// The notations of numbers that std::from_chars does not take: exponents of Fortran's, as in
+// 1.5D+00 and 1.5+100, or with the sign before the letter, and what Microsoft's C once wrote for
+// not-a-number and infinity, as in -1.#IND.
 bool parse_other_notation(std::string_view word, float& value) {
   constexpr size_t kLongest = 64;
   if (word.size() > kLongest) return false;
   std::string number;
-  for (const char c : word) number += ascii_lower(c);
+  for (const char c : word) number += ascii_lower(c) == 'd' ? 'e' : ascii_lower(c);
   const size_t hash = number.find(".#");
   if (hash != std::string::npos) {
     const bool infinite = number.compare(hash, 5, ".#inf") == 0;
     number = infinite ? number.front() == '-' ? "-inf" : "inf" : "nan";
-    return parse_number(number, value);
   }
-  const size_t exponent = number.find('d');
-  if (exponent == std::string::npos || exponent == 0) return false;
-  number[exponent] = 'e';
-  return number.find('d') == std::string::npos && parse_number(number, value);
+  const size_t sign = number.find_last_of("+-");
+  if (sign != std::string::npos && sign > 0 && number[sign - 1] != 'e') {
+    if (sign + 1 < number.size() && number[sign + 1] == 'e') number.erase(sign + 1, 1);
+    number.insert(sign, 1, 'e');
+  }
+  return number != word && parse_number(number, value);
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ void subdivide_scene(const std::string& source, unsigned subdivisions, uint64_t 
   writer.finish();
   refined.views = std::move(scene.views);
   refined.default_view = scene.default_view;
+  refined.notes = std::move(scene.notes);
   scene = std::move(refined);
 }
 

@@ -77,6 +77,22 @@ def test_wrong_views(text, tmp_path):
         read_views(cameras, "quad")
 
 
+def test_notes(quad, tmp_path):
+    assert sobb.Scene.load(quad).notes == []
+    quad.write_text(QUAD.replace("f", "v nan 0 0\nf 1 2\nf 3\nf"))
+    (tmp_path / "cameras.json").write_text('[{"id": 0, "img_name": "a"}]')
+    scene = sobb.Scene.load(quad)
+    assert scene.info.note_count == 3 and scene.info.default_view == 1
+    short, unused, views = scene.notes
+    assert short == sobb.Note("faces of fewer than three corners", 2, "line 6: a face of 2 corners")
+    assert (unused.count, unused.message) == (1, "line 5: vertex (nan, 0, 0) is not finite")
+    assert views.message == f"{tmp_path}/cameras.json: the document is not an object"
+    assert np.isfinite(scene.vertices).all()
+    sobb.build(scene)
+    with pytest.raises(sobb.Error, match="the document is not an object"):
+        sobb.Scene.load(quad, views=tmp_path / "cameras.json")
+
+
 def test_arrays_are_not_copied_and_not_writable():
     scene = sobb.Scene.load("builtin:city:2000")
     assert np.shares_memory(scene.vertices, scene.vertices)
