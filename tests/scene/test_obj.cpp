@@ -210,6 +210,14 @@ TEST(Obj, TakesExponentsOfFortran) {
   EXPECT_EQ(scene.vertices[0], 15.0F);
   EXPECT_EQ(scene.vertices[1], -0.2F);
   EXPECT_EQ(scene.vertices[2], 3.0F);
+  const Scene signs = read("v 1.5+01 -25-2 3.1+e2\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(signs.vertices[0], 15.0F);
+  EXPECT_EQ(signs.vertices[1], -0.25F);
+  EXPECT_EQ(signs.vertices[2], 310.0F);
+  for (const char* number : {"1+", "1-2-3", "1+ee5", "d", "1d", "+d1", "0,5"}) {
+    const std::string text = "v " + std::string(number) + " 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    expect_error(text, SOBB_ERROR_SCENE_SYNTAX, "line 1:");
+  }
 }
 
 TEST(Obj, NumbersTooSmallForFloatAreZero) {

@@ -8,9 +8,9 @@
 
 namespace sobb {
 
-// Parses a word in any notation of C's but hexadecimal, with nan and inf; exponents may be written
-// with D, as Fortran does, and nan and inf as Microsoft's C once did (1.#QNAN). False where it is
-// no number. Beyond float's range: the largest float, or zero.
+// Parses a word in any notation of C's but hexadecimal, with nan and inf; exponents may be those of
+// Fortran (1.5D+00, 1.5+100), and nan and inf those of Microsoft's C of old (1.#QNAN). False where
+// it is no number. Beyond float's range: the largest float, or zero.
 bool parse_number(std::string_view word, float& value);
 
 // Parses a word that is a whole number. Errors: invalid_argument, result_out_of_range.
