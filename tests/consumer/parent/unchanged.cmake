@@ -4,8 +4,7 @@
 # of the folder.
 
 # New variables of these names are the subproject's own, or what finds its dependencies.
-set(parent_allowed
-  "^(SOBB_|sobb_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_DETAILS_|TBB|hwy_|embree_|xxhash_|pkgcfg_|PKG_CONFIG_|__pkg_config|prefix_result)")
+set(parent_allowed "^(SOBB_|sobb_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_DETAILS_|TBB|hwy_)")
 # CMake itself changes these wherever a folder is added or a package is found.
 set(parent_volatile "^(ARG[CNV0-9]*|CMAKE_CURRENT_LIST_LINE|CMAKE_MATCH_.*|parent_.*|OUTPUT_VARIABLE|_.*)$")
 
