@@ -69,6 +69,9 @@ void check_scene(const Scene& scene) {
     next += mesh.triangle_count;
   }
   expect(next == scene.indices.size() / 3, "meshes cover the scene");
+  for (const SceneNote& note : scene.notes) {
+    expect(note.count > 0 && !note.first.empty(), "a note says what was passed over");
+  }
   check_views(scene.views);
 }
 
