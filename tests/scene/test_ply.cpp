@@ -311,6 +311,14 @@ TEST(Ply, TakesBlankLinesAndCapitalsInItsHeader) {
   EXPECT_EQ(read(text).indices, (Indices{0, 1, 2, 0, 2, 3}));
 }
 
+TEST(Ply, PassesOverHeaderLinesWithoutAKeyword) {
+  std::string text = ascii_faces("3 0 1 2\n3 0 2 3\n");
+  text.insert(text.find("element face"), "Created by hand, for a test\n");
+  const Scene scene = read(text);
+  EXPECT_EQ(scene.indices, (Indices{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(notes_of(scene), (Notes{"4, 1, line 9: \"Created\" is no statement of a header"}));
+}
+
 TEST(Ply, SplitsConcavePolygonsByTheirArea) {
   const Scene scene =
       read(ascii("element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
@@ -336,7 +344,8 @@ TEST(Ply, NamesTheLineOfAHeadersError) {
   expect_error("ply\nformat text 1.0\n", syntax, "line 2: \"text\" is no format");
   expect_error(start + "format ascii 1.0\n", syntax, "line 3: \"format\" cannot");
   expect_error(start + "property int x\n", syntax, "line 3: \"property\" cannot");
-  expect_error(start + "what 1\n", syntax, "line 3: \"what\" cannot");
+  expect_error(start + "what 1\n", syntax, "the file ends before end_header");
+  expect_error("ply\nelement face 1\nend_header\n", syntax, "line 3: \"end_header\" cannot");
   expect_error(start + "element\n", syntax, "line 3: the line ends where an element's name");
   expect_error(start + "element face\n", syntax, "line 3: the line ends where the count");
   expect_error(start + "element face -1\n", syntax, "line 3: \"-1\"");

@@ -208,7 +208,7 @@ void read_elements(const PlyHeader& header, const PlyLayout& layout, Items items
 void read_ply(std::string_view bytes, SceneWriter& writer) {
   TextReader text(bytes, writer);
   text.refuse_wide_characters();
-  const PlyHeader header = read_ply_header(text);
+  const PlyHeader header = read_ply_header(text, writer);
   const PlyLayout layout = find_layout(header, text);
   if (header.encoding == PlyEncoding::kAscii) {
     read_elements(header, layout, PlyTextItems(text), writer);

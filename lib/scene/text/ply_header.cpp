@@ -53,6 +53,10 @@ PlyProperty read_property(TextReader& text) {
   return property;
 }
 
+bool is_keyword(std::string_view word) {
+  return word == "format" || word == "element" || word == "property" || word == "end_header";
+}
+
 // The fewest bytes of an item. In ASCII every value has a character, and a blank or a line's end.
 uint64_t least_bytes(const PlyElement& element, PlyEncoding encoding) {
   if (encoding == PlyEncoding::kAscii) return 2 * element.properties.size();
@@ -100,7 +104,7 @@ uint64_t size_of(PlyType type) {
   return 8;
 }
 
-PlyHeader read_ply_header(TextReader& text) {
+PlyHeader read_ply_header(TextReader& text, SceneWriter& writer) {
   PlyHeader header;
   if (!text.next_line() || !is_word(text.rest_of_line(), "ply")) {
     text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "the first line is not \"ply\"");
@@ -125,8 +129,14 @@ PlyHeader read_ply_header(TextReader& text) {
       header.data = cr_alone ? text.text_after_cr() : text.text_after_line();
       check_counts(header, text);
       return header;
-    } else {
+    } else if (is_keyword(keyword)) {
       text.fail_here(SOBB_ERROR_SCENE_SYNTAX, "\"%s\" cannot stand here", quote(keyword).c_str());
+    } else {
+      // A comment that lacks its keyword.
+      writer.note(SOBB_NOTE_UNUSED_ITEM, [&] {
+        return text.place() + ": \"" + quote(keyword) + "\" is no statement of a header";
+      });
+      continue;
     }
     text.expect_line_end();
   }

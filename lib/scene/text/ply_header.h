@@ -37,10 +37,11 @@ struct PlyHeader {
   std::string_view data;             // what follows the header
 };
 
-// Reads from the first line to that of end_header, where it leaves `text`.
+// Reads from the first line to that of end_header, where it leaves `text`. Lines that begin with no
+// keyword are passed over with a note.
 //
 // Errors, with the line: SCENE_SYNTAX for a malformed line or counts of elements that the rest of
 // the file cannot hold; SCENE_UNSUPPORTED for another version than 1.0.
-PlyHeader read_ply_header(TextReader& text);
+PlyHeader read_ply_header(TextReader& text, SceneWriter& writer);
 
 }  // namespace sobb
