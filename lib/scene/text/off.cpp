@@ -64,14 +64,14 @@ int read_keyword(TextReader& text) {
   return extras;
 }
 
-struct Counts {
+struct OffCounts {
   uint64_t vertices = 0;
   uint64_t faces = 0;
 };
 
 // Each count may have a line of its own, and that of edges, which nobody needs, may be missing.
-Counts read_counts(TextReader& text) {
-  Counts counts;
+OffCounts read_counts(TextReader& text) {
+  OffCounts counts;
   if (text.at_line_end()) text.next_line_with_words();
   counts.vertices = text.count("the count of vertices", UINT32_MAX);
   const bool own_lines = text.at_line_end() && text.next_line_with_words();

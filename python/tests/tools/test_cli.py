@@ -47,6 +47,17 @@ def test_info(cli, built):
     assert text.returncode == 0 and str(file["nodes"]) in text.stdout
 
 
+def test_info_tells_what_was_passed_over(cli, tmp_path):
+    scene = tmp_path / "a.obj"
+    scene.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\nf 1 2 3\n")
+    (note,) = json.loads(cli("info", scene, "--json").stdout)["notes"]
+    short = "faces of fewer than three corners"
+    assert note == {"cause": short, "count": 1, "message": "line 4: a face of 2 corners"}
+    text = cli("info", scene).stdout
+    assert f"passed over     1 ({short}): line 4: a face of 2 corners\n" in text
+    assert "passed over" not in cli("info", SCENE).stdout
+
+
 def test_render(cli, built, tmp_path):
     picture = tmp_path / "a.png"
     assert cli("render", built, "-o", picture, "--size", "48x27").returncode == 0
