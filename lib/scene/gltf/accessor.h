@@ -5,24 +5,40 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 
-#include "scene/gltf/buffers.h"
+#include "scene/gltf/buffers/buffers.h"
 #include "scene/gltf/document/model.h"
 
 namespace sobb {
 
+struct GltfElements {
+  uint64_t count = 0;
+  int component_type = 0;  // as glTF numbers them
+  bool normalized = false;
+  uint64_t stride = 0;         // bytes
+  const char* data = nullptr;  // null where `owned` has the elements
+  std::string owned;
+};
+
 class GltfAccessor {
  public:
-  enum class Use { kPositions, kIndices };
+  enum class Use {
+    kPositions,
+    kIndices,
+    kDisplacements,  // of the positions that are there, and read before the next accessor is made
+  };
 
-  // Proves that every element lies in its buffer, and applies sparse substitution. Errors:
-  // SCENE_SYNTAX, SCENE_REFERENCE, MEMORY_LIMIT, CANCELLED. All arguments are borrowed.
-  GltfAccessor(const GltfDocument& document, GltfBuffers& buffers, int index, Use use,
-               const std::string& name);
-  GltfAccessor(const GltfAccessor&) = delete;
-  GltfAccessor& operator=(const GltfAccessor&) = delete;
+  // Accessor `index` of the document. Every element is proven to lie in its buffer, and sparse
+  // substitution is applied. `expected` is the count of displacements. The document and its buffers
+  // outlive the accessor. Errors: SCENE_SYNTAX, SCENE_REFERENCE, MEMORY_LIMIT, CANCELLED.
+  static GltfAccessor read(const GltfDocument& document, GltfBuffers& buffers, int index, Use use,
+                           uint64_t expected = 0);
 
-  uint64_t count() const { return count_; }
+  // Elements that need no proof.
+  explicit GltfAccessor(GltfElements elements) : elements_(std::move(elements)) {}
+
+  uint64_t count() const { return elements_.count; }
 
   // Element i < count() as a position: exact in double, but a normalised integer is rounded once.
   std::array<double, 3> position(uint64_t i) const;
@@ -30,26 +46,12 @@ class GltfAccessor {
   uint32_t index(uint64_t i) const;
 
  private:
-  // Elements `stride` bytes apart.
-  struct Range {
-    const char* data = nullptr;
-    uint64_t stride = 0;
-  };
-  [[noreturn]] void refuse(const char* format, ...) const __attribute__((format(printf, 2, 3)));
-  Range range(int index, uint64_t offset, uint64_t count, uint64_t element_size) const;
-  void take_type(const tinygltf::Accessor& accessor, Use use);
-  void make_dense(const tinygltf::Accessor& accessor);
+  const char* element(uint64_t i) const {
+    return (elements_.data != nullptr ? elements_.data : elements_.owned.data()) +
+           i * elements_.stride;
+  }
 
-  const GltfDocument& document_;
-  GltfBuffers& buffers_;
-  const std::string& name_;
-  int index_;
-  int component_type_ = 0;
-  bool normalized_ = false;
-  uint64_t count_ = 0;
-  uint64_t element_size_ = 0;
-  Range elements_;
-  std::string dense_;  // for a sparse accessor or one without a view: elements_ points here
+  GltfElements elements_;
 };
 
 }  // namespace sobb

@@ -2,15 +2,16 @@
 // See gltf.h.
 #include "scene/gltf/gltf.h"
 
-#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "scene/gltf/buffers.h"
+#include "scene/gltf/buffers/buffers.h"
+#include "scene/gltf/buffers/glb.h"
 #include "scene/gltf/document/document.h"
-#include "scene/gltf/glb.h"
+#include "scene/gltf/morph.h"
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/primitive.h"
 
@@ -23,23 +24,31 @@ class GltfReader {
       : document_(document),
         buffers_(buffers),
         writer_(writer),
-        nodes_(place_gltf_nodes(document.model, writer.name())),
+        morph_(document, buffers),
+        nodes_(place_gltf_nodes(document, writer.name())),
         meshes_(document.model.meshes.size()) {}
 
   void read() {
     expect_all();
     const tinygltf::Model& model = document_.model;
     for_each_mesh([&](int mesh, const GltfPlacedNode& placed) {
-      const std::string& name = model.meshes[size_t(mesh)].name;
-      const bool named = !name.empty() || placed.node < 0;
-      writer_.begin_mesh(named ? name : model.nodes[size_t(placed.node)].name);
-      for (const auto& primitive : primitives(mesh)) primitive->write(placed.transform, writer_);
+      const tinygltf::Mesh& source = model.meshes[size_t(mesh)];
+      const tinygltf::Node none;
+      const tinygltf::Node& node = placed.node < 0 ? none : model.nodes[size_t(placed.node)];
+      writer_.begin_mesh(source.name.empty() ? node.name : source.name);
+      const std::vector<double>& weights = node.weights.empty() ? source.weights : node.weights;
+      for (const GltfPrimitive& primitive : primitives(mesh)) {
+        const std::span<const double> displacements =
+            morph_.displacements(primitive.source(), weights, primitive.position_count());
+        primitive.write(placed.transform, displacements, writer_);
+      }
     });
     add_cameras();
+    document_.faults.note(writer_);
   }
 
  private:
-  using Primitives = std::vector<std::unique_ptr<GltfPrimitive>>;
+  using Primitives = std::vector<GltfPrimitive>;
 
   // Counts before anything is added: one mesh placed a thousand times is a thousand meshes in
   // memory.
@@ -47,10 +56,10 @@ class GltfReader {
     uint64_t vertices = 0;
     uint64_t triangles = 0;
     for_each_mesh([&](int mesh, const GltfPlacedNode&) {
-      for (const auto& primitive : primitives(mesh)) {
+      for (const GltfPrimitive& primitive : primitives(mesh)) {
         writer_.work(1);
-        vertices += primitive->vertex_count();
-        triangles += primitive->triangle_count();
+        vertices += primitive.vertex_count();
+        triangles += primitive.triangle_count();
         writer_.check_counts(vertices, triangles);
       }
     });
@@ -66,17 +75,13 @@ class GltfReader {
     }
     for (const GltfPlacedNode& placed : nodes_) {
       const int mesh = document_.model.nodes[size_t(placed.node)].mesh;
-      if (named_by(placed, mesh, meshes_.size(), "mesh")) body(mesh, placed);
+      if (mesh < 0) continue;
+      if (size_t(mesh) >= meshes_.size()) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes[%d] names no mesh, %d", writer_.name().c_str(),
+             placed.node, mesh);
+      }
+      body(mesh, placed);
     }
-  }
-
-  // Returns whether a node has element `index` of `count`; an index below zero is none. Error
-  // SCENE_SYNTAX for an index beyond them.
-  bool named_by(const GltfPlacedNode& placed, int index, size_t count, const char* what) const {
-    if (index < 0) return false;
-    if (size_t(index) < count) return true;
-    fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes[%d] names no %s, %d", writer_.name().c_str(),
-         placed.node, what, index);
   }
 
   // The mesh's primitives that have triangles, made at first use.
@@ -84,26 +89,49 @@ class GltfReader {
     std::optional<Primitives>& known = meshes_[size_t(mesh)];
     if (known) return *known;
     known.emplace();
+    document_.faults.check(GltfItem::kMesh, size_t(mesh), writer_.name());
     const auto& sources = document_.model.meshes[size_t(mesh)].primitives;
     for (size_t i = 0; i < sources.size(); ++i) {
       if (sources[i].mode > TINYGLTF_MODE_TRIANGLE_FAN) {
         fail(SOBB_ERROR_SCENE_SYNTAX, "%s: meshes[%d].primitives[%zu].mode is %d",
              writer_.name().c_str(), mesh, i, sources[i].mode);
       }
-      if (!GltfPrimitive::has_triangles(sources[i])) continue;
-      known->push_back(
-          std::make_unique<GltfPrimitive>(document_, buffers_, mesh, i, writer_.name()));
+      if (!GltfPrimitive::has_triangles(sources[i]) || is_empty(mesh, i)) continue;
+      known->push_back(GltfPrimitive::read(document_, buffers_, mesh, i));
+      if (!known->back().has_surplus_corners()) continue;
+      writer_.note(SOBB_NOTE_SHORT_FACE,
+                   [&] { return known->back().place() + ": its last corners are no triangle"; });
     }
     return *known;
   }
 
+  // Returns whether an accessor that the primitive needs has no elements, and notes that.
+  bool is_empty(int mesh, size_t index) {
+    const tinygltf::Primitive& source = document_.model.meshes[size_t(mesh)].primitives[index];
+    for (const int accessor : {source.attributes.at("POSITION"), source.indices}) {
+      if (accessor < 0 || document_.faults.has(GltfItem::kAccessor, size_t(accessor))) continue;
+      if (document_.model.accessors[size_t(accessor)].count != 0) continue;
+      writer_.note(SOBB_NOTE_UNUSED_ITEM,
+                   [&] { return "accessors[" + std::to_string(accessor) + "] has no elements"; });
+      return true;
+    }
+    return false;
+  }
+
   // A glTF camera looks along its -z, y up.
-  void add_cameras() const {
+  void add_cameras() {
     const tinygltf::Model& model = document_.model;
     const auto vec3 = [](const std::array<double, 3>& v) { return Vec3{v[0], v[1], v[2]}; };
     for (const GltfPlacedNode& placed : nodes_) {
       const int index = model.nodes[size_t(placed.node)].camera;
-      if (!named_by(placed, index, model.cameras.size(), "camera")) continue;
+      if (index >= 0 && size_t(index) >= model.cameras.size()) {
+        writer_.note(SOBB_NOTE_UNUSED_ITEM, [&] {
+          return "nodes[" + std::to_string(placed.node) + "] names no camera, " +
+                 std::to_string(index);
+        });
+        continue;
+      }
+      if (index < 0 || document_.faults.has(GltfItem::kCamera, size_t(index))) continue;
       const tinygltf::Camera& camera = model.cameras[size_t(index)];
       if (camera.type != "perspective") continue;
       const GltfTransform& transform = placed.transform;
@@ -115,6 +143,7 @@ class GltfReader {
   const GltfDocument& document_;
   GltfBuffers& buffers_;
   SceneWriter& writer_;
+  GltfMorph morph_;
   std::vector<GltfPlacedNode> nodes_;
   std::vector<std::optional<Primitives>> meshes_;
 };
@@ -123,9 +152,11 @@ class GltfReader {
 
 void read_gltf(std::string_view bytes, SceneWriter& writer) {
   GlbChunks chunks{bytes, std::nullopt};
-  if (is_glb(bytes)) chunks = split_glb(bytes, writer.name());
+  if (is_glb(bytes)) chunks = split_glb(bytes, writer);
+  // Some writers pad JSON with zeros instead of spaces.
+  while (chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);
   const GltfDocument document = parse_gltf(chunks.json, writer);
-  GltfBuffers buffers(document.buffers, chunks.binary, writer);
+  GltfBuffers buffers(document, chunks.binary, writer);
   GltfReader(document, buffers, writer).read();
 }
 

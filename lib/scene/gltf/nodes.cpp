@@ -70,26 +70,35 @@ GltfTransform product(const GltfTransform& outer, const GltfTransform& inner) {
 
 class NodeWalk {
  public:
-  NodeWalk(const tinygltf::Model& model, const std::string& name)
-      : model_(model), name_(name), reached_(model.nodes.size()) {}
+  NodeWalk(const GltfDocument& document, const std::string& name)
+      : document_(document),
+        model_(document.model),
+        name_(name),
+        reached_(document.model.nodes.size()) {}
 
   std::vector<GltfPlacedNode> placed_nodes() {
-    push(roots(), {});
+    push(roots(), {}, false);
     std::vector<GltfPlacedNode> result;
+    size_t reached = 0;
     // A stack of our own, no recursion: a file may nest its nodes as deep as it likes.
-    while (!waiting_.empty()) {
-      const GltfPlacedNode next = waiting_.back();
+    for (; !waiting_.empty(); ++reached) {
+      const Waiting next = waiting_.back();
       waiting_.pop_back();
-      result.push_back(next);
-      push(model_.nodes[size_t(next.node)].children, next.transform);
+      if (!next.hidden) result.push_back(next.placed);
+      push(model_.nodes[size_t(next.placed.node)].children, next.placed.transform, next.hidden);
     }
-    if (model_.scenes.empty() && result.size() != model_.nodes.size()) {
+    if (model_.scenes.empty() && reached != model_.nodes.size()) {
       fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes form a cycle", name_.c_str());
     }
     return result;
   }
 
  private:
+  struct Waiting {
+    GltfPlacedNode placed;
+    bool hidden;
+  };
+
   std::vector<int> roots() const {
     if (!model_.scenes.empty()) {
       const int scene = std::max(model_.defaultScene, 0);
@@ -97,6 +106,7 @@ class NodeWalk {
         fail(SOBB_ERROR_SCENE_SYNTAX, "%s: the default scene, %d, does not exist", name_.c_str(),
              scene);
       }
+      document_.faults.check(GltfItem::kScene, size_t(scene), name_);
       return model_.scenes[size_t(scene)].nodes;
     }
     std::vector<bool> child(model_.nodes.size());
@@ -112,23 +122,27 @@ class NodeWalk {
     return result;
   }
 
-  void push(const std::vector<int>& nodes, const GltfTransform& parent) {
+  void push(const std::vector<int>& nodes, const GltfTransform& parent, bool hidden) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
       if (*node < 0 || size_t(*node) >= reached_.size()) {
         fail(SOBB_ERROR_SCENE_SYNTAX, "%s: node %d does not exist", name_.c_str(), *node);
       }
-      if (reached_[size_t(*node)]) {
+      const auto index = size_t(*node);
+      if (reached_[index]) {
         fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes[%d] is reached twice", name_.c_str(), *node);
       }
-      reached_[size_t(*node)] = true;
-      waiting_.push_back({*node, product(parent, local_transform(model_.nodes[size_t(*node)]))});
+      document_.faults.check(GltfItem::kNode, index, name_);
+      reached_[index] = true;
+      waiting_.push_back({{*node, product(parent, local_transform(model_.nodes[index]))},
+                          hidden || document_.hidden[index]});
     }
   }
 
+  const GltfDocument& document_;
   const tinygltf::Model& model_;
   const std::string& name_;
   std::vector<bool> reached_;
-  std::vector<GltfPlacedNode> waiting_;
+  std::vector<Waiting> waiting_;
 };
 
 }  // namespace
@@ -147,9 +161,9 @@ std::array<double, 3> GltfTransform::point(const std::array<double, 3>& p) const
   return result;
 }
 
-std::vector<GltfPlacedNode> place_gltf_nodes(const tinygltf::Model& model,
+std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document,
                                              const std::string& name) {
-  return NodeWalk(model, name).placed_nodes();
+  return NodeWalk(document, name).placed_nodes();
 }
 
 }  // namespace sobb

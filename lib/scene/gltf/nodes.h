@@ -26,8 +26,9 @@ struct GltfPlacedNode {
 };
 
 // Every node of the scene to show, parents before children, siblings in the file's order. That is
-// the default scene, else the first, else all roots. Error SCENE_SYNTAX, with `name`, for a node
-// that does not exist or is reached twice, as in a cycle.
-std::vector<GltfPlacedNode> place_gltf_nodes(const tinygltf::Model& model, const std::string& name);
+// the default scene, else the first, else all roots; a hidden node is left out, and so are those
+// below it. Error SCENE_SYNTAX, with `name`, for a node that is malformed, does not exist or is
+// reached twice, as in a cycle.
+std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document, const std::string& name);
 
 }  // namespace sobb

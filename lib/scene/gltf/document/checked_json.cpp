@@ -8,9 +8,21 @@ namespace sobb {
 
 using nlohmann::json;
 
+const json* extension_of(const json& holder, const char* extension) {
+  const auto extensions = holder.find("extensions");
+  if (extensions == holder.end() || !extensions->is_object()) return nullptr;
+  const auto found = extensions->find(extension);
+  return found == extensions->end() ? nullptr : &*found;
+}
+
 CheckedJson::CheckedJson(const json& document, const std::string& name)
     : document_(document), name_(name) {
   if (!document.is_object()) refuse("the document", "is not an object");
+}
+
+std::string CheckedJson::without_name(std::string message) const {
+  if (message.starts_with(name_ + ": ")) message.erase(0, name_.size() + 2);
+  return message;
 }
 
 const json& CheckedJson::object(const json& parent, const char* key,

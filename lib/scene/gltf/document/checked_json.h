@@ -3,10 +3,12 @@
 // range, and names the place of what is wrong.
 #pragma once
 
+#include <concepts>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/error.h"
 #include "scene/input/json.h"
 
 namespace sobb {
@@ -28,6 +30,9 @@ struct JsonMember {
 };
 using JsonMembers = std::initializer_list<JsonMember>;
 
+// The object of an extension that `holder` holds; null where it holds none of that name.
+const nlohmann::json* extension_of(const nlohmann::json& holder, const char* extension);
+
 // Its functions throw SCENE_SYNTAX with the source's name and `place`, where in the document the
 // value is.
 class CheckedJson {
@@ -38,8 +43,20 @@ class CheckedJson {
   const nlohmann::json& document() const { return document_; }
   const std::string& name() const { return name_; }
 
-  [[noreturn]] void refuse(const std::string& place, const char* what) const {
-    refuse_json(name_, place, what);
+  [[noreturn]] void refuse(const std::string& place, const std::string& what) const {
+    refuse_json(name_, place, what.c_str());
+  }
+
+  // Runs body(), and returns the place and fault with which it refuses; empty where it does not.
+  template <std::invocable Body>
+  std::string fault_of(const Body& body) const {
+    try {
+      body();
+    } catch (const Error& error) {
+      if (error.status != SOBB_ERROR_SCENE_SYNTAX) throw;
+      return without_name(error.what());
+    }
+    return {};
   }
 
   // The member `key` of `parent`, which must be an object in an object.
@@ -63,6 +80,7 @@ class CheckedJson {
   }
 
  private:
+  std::string without_name(std::string message) const;
   nlohmann::json value(const nlohmann::json& given, const JsonMember& member,
                        const std::string& place) const;
   uint64_t integer(const nlohmann::json& given, double limit, const std::string& place) const;

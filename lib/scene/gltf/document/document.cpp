@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "scene/gltf/document/checked_json.h"
+#include "scene/gltf/document/declared_views.h"
 #include "scene/gltf/document/extensions.h"
 #include "scene/gltf/document/geometry_filter.h"
 
@@ -20,17 +21,31 @@ constexpr uint64_t kGrowing = 3;
 // The most that TinyGLTF's structs and ours take per element: a placed node with a camera.
 constexpr uint64_t kElementBytes = 2560;
 
+// The most that a buffer takes, without its URI: its declaration, its fault, what is fetched of it.
+constexpr uint64_t kBufferBytes = 512;
+
+// The most that a placeholder of geometry_of() takes, in its tree and in its text.
+constexpr uint64_t kPlaceholderTreeBytes = 1024;
+constexpr uint64_t kPlaceholderTextBytes = 96;
+
 // A bound of the text that a tree is written to: numbers may become longer, as 1e15 does.
 uint64_t written_bytes(const JsonSize& size) { return size.string_bytes + 4 * size.other_bytes; }
 
+uint64_t size_of(const json& holder, const char* array) {
+  const auto found = holder.find(array);
+  return found != holder.end() ? found->size() : 0;
+}
+
+// Counts the elements of the document's arrays, their primitives, and the primitives' targets.
 uint64_t count_elements(const json& document) {
   uint64_t count = 0;
   for (const json& part : document) {
     if (!part.is_array()) continue;
     count += part.size();
     for (const json& element : part) {
-      const auto primitives = element.find("primitives");
-      if (primitives != element.end()) count += primitives->size();
+      if (size_of(element, "primitives") == 0) continue;
+      count += element["primitives"].size();
+      for (const json& primitive : element["primitives"]) count += size_of(primitive, "targets");
     }
   }
   return count;
@@ -41,7 +56,30 @@ uint64_t count_elements(const json& document) {
 void hold_document(const GltfDocument& document, const JsonSize& size, uint64_t elements,
                    SceneWriter& writer) {
   writer.hold(elements * kElementBytes + 2 * size.string_bytes + kGrowing * 8 * size.commas);
-  for (const GltfBuffer& buffer : document.buffers) writer.hold(buffer.uri.size());
+  for (const GltfBuffer& buffer : document.buffers) writer.hold(kBufferBytes + buffer.uri.size());
+  for (const GltfView& view : document.views) {
+    if (view.compressed) writer.hold(view.compressed->mode.size() + view.compressed->filter.size());
+  }
+}
+
+// Error SCENE_UNSUPPORTED for another version than 2.x. A document of glTF 1.0 names its elements,
+// and may name no version.
+void check_version(const CheckedJson& checked) {
+  const json& document = checked.document();
+  const auto named = [&](const char* key) {
+    const auto found = document.find(key);
+    return found != document.end() && found->is_object();
+  };
+  std::string version;
+  if (named("asset") && document["asset"].contains("version")) {
+    const json& given = document["asset"]["version"];
+    version = given.is_string() ? given.get<std::string>() : given.dump();
+  }
+  if (version == "1" || (version.empty() && (named("meshes") || named("nodes")))) version = "1.0";
+  if (version == "2" || version.starts_with("2.")) return;
+  if (version.empty()) checked.refuse("asset.version", "is missing");
+  fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: glTF %s: only 2.x is read", checked.name().c_str(),
+       version.substr(0, 20).c_str());
 }
 
 // What is left of the JSON for TinyGLTF.
@@ -54,12 +92,17 @@ FilteredText filter_text(std::string_view text, GltfDocument& document, SceneWri
   const std::string& name = writer.name();
   const json tree = parse_json(text, name, writer);
   const JsonSize size = measure_json(text);
-  check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size), name, writer);
+  const uint64_t placeholders = 1 + count_elements(tree);
+  check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size) +
+                      placeholders * (kPlaceholderTreeBytes + kGrowing * kPlaceholderTextBytes),
+                  name, writer);
   const CheckedJson checked(tree, name);
-  check_extensions(checked);
-  const json geometry = geometry_of(checked);
+  check_version(checked);
+  check_extensions(checked, writer);
+  document.buffers = declared_buffers(checked, document.faults);
+  document.views = declared_views(checked, document.faults);
+  const json geometry = geometry_of(checked, document, writer);
   FilteredText result{geometry.dump(), count_elements(geometry)};
-  document.buffers = declared_buffers(checked);
   document.quantized = uses_extension(checked, "KHR_mesh_quantization");
   if (result.text.size() > UINT_MAX) {
     fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: JSON of 4 GiB or more", name.c_str());
@@ -76,10 +119,6 @@ void load_model(const std::string& text, const std::string& name, tinygltf::Mode
   if (!read || !error.empty()) {
     fail(SOBB_ERROR_SCENE_SYNTAX, "%s: %s", name.c_str(),
          error.substr(0, error.find('\n')).c_str());
-  }
-  if (!model.asset.version.starts_with("2.")) {
-    fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: glTF version %s, only 2 is read", name.c_str(),
-         model.asset.version.c_str());
   }
 }
 

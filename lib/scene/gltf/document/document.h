@@ -2,8 +2,8 @@
 // Parses the JSON of a glTF file into TinyGLTF's model, without what is not geometry.
 //
 // The room gltf/document/ is all that sees the JSON: checked_json.h reads it strictly, extensions.h
-// decides on extensions, geometry_filter.h takes what geometry needs. The rest of gltf/ sees
-// model.h.
+// decides on extensions, geometry_filter.h takes what geometry needs for TinyGLTF, declared_views.h
+// the buffers and their views, faults.h keeps what is malformed. The rest of gltf/ sees model.h.
 #pragma once
 
 #include <string_view>
@@ -13,8 +13,9 @@
 
 namespace sobb {
 
-// Errors: SCENE_SYNTAX with the element's place, SCENE_UNSUPPORTED with the extension; MEMORY_LIMIT
-// before TinyGLTF would take more than the writer has left.
+// Malformed elements are faults of the document, which matter where a triangle needs one. Errors:
+// SCENE_SYNTAX; SCENE_UNSUPPORTED with the version or extension; MEMORY_LIMIT before TinyGLTF would
+// take more than the writer has left.
 //
 // TinyGLTF drops what it cannot parse, takes a fraction for a missing index, and trusts images to
 // lie in their buffers. So it is given a document of ours, with the members that geometry needs,

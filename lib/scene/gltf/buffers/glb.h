@@ -3,8 +3,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
+
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -15,8 +16,9 @@ struct GlbChunks {
 
 bool is_glb(std::string_view bytes);
 
-// Error SCENE_SYNTAX where the header or a chunk promises more than the file has, SCENE_UNSUPPORTED
-// for another version.
-GlbChunks split_glb(std::string_view bytes, const std::string& name);
+// Unknown chunks are ignored, and bytes behind the last chunk are noted. Errors: SCENE_SYNTAX where
+// the header or a chunk that is read promises more than the file has; SCENE_UNSUPPORTED for another
+// version.
+GlbChunks split_glb(std::string_view bytes, SceneWriter& writer);
 
 }  // namespace sobb
