@@ -2,6 +2,8 @@
 // GltfFile makes glTF files in the tests.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -101,6 +103,46 @@ inline GltfFile square() {
 inline Scene read(const GltfFile& file) {
   return reader_testing::read_scene(read_gltf, file.glb());
 }
+// The area of a scene's triangles.
+inline double area(const Scene& scene) {
+  double sum = 0;
+  for (size_t t = 0; t < scene.indices.size(); t += 3) {
+    const auto corner = [&](size_t k) { return &scene.vertices[3 * size_t(scene.indices[t + k])]; };
+    double u[3];
+    double v[3];
+    for (size_t k = 0; k < 3; ++k) {
+      u[k] = double(corner(1)[k]) - double(corner(0)[k]);
+      v[k] = double(corner(2)[k]) - double(corner(0)[k]);
+    }
+    sum += std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                      u[0] * v[1] - u[1] * v[0]) /
+           2;
+  }
+  return sum;
+}
+
+// What a scene notes for a cause: how often, and the first time.
+inline SceneNote note_of(const Scene& scene, sobb_note_cause cause) {
+  const auto found = std::ranges::find(scene.notes, cause, &SceneNote::cause);
+  return found != scene.notes.end() ? *found : SceneNote{cause, 0, ""};
+}
+
+inline void expect_note(const Scene& scene, sobb_note_cause cause, uint64_t count,
+                        const std::string& part) {
+  const SceneNote note = note_of(scene, cause);
+  EXPECT_EQ(note.count, count) << note.first;
+  EXPECT_NE(note.first.find(part), std::string::npos) << note.first;
+}
+
+// Expects the triangles of square(), and as many notes as there are causes to.
+inline void expect_square(const Scene& scene, size_t notes = 0) {
+  EXPECT_EQ(scene.indices.size(), 6U);
+  EXPECT_EQ(area(scene), 1);
+  EXPECT_EQ(scene.bounds_min, (std::array<float, 3>{0, 0, 0}));
+  EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{1, 1, 0}));
+  EXPECT_EQ(scene.notes.size(), notes);
+}
+
 inline void expect_error(const GltfFile& file, sobb_status status, const std::string& part) {
   reader_testing::expect_error(read_gltf, file.glb(), status, part);
 }

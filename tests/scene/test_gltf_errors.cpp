@@ -25,19 +25,10 @@ void expect_refused(const char* pointer, const json& value, sobb_status status,
   expect_error(file, status, part);
 }
 
-TEST(GltfErrors, RefusesUnsupportedExtensionsByName) {
-  expect_refused("/extensionsRequired", {"KHR_draco_mesh_compression"},
-                 SOBB_ERROR_SCENE_UNSUPPORTED, "KHR_draco_mesh_compression");
-  expect_refused("/extensionsUsed", {"EXT_mesh_gpu_instancing"}, SOBB_ERROR_SCENE_UNSUPPORTED,
-                 "EXT_mesh_gpu_instancing");
-  expect_refused("/asset/version", "1.0", SOBB_ERROR_SCENE_UNSUPPORTED, "version 1.0");
-}
-
 TEST(GltfErrors, RefusesAccessorsThatLeaveTheirViews) {
   const uint64_t big = uint64_t(1) << 53;
   expect_refused("/accessors/0/count", 5, kSyntax, "accessors[0] leaves bufferViews[0]");
   expect_refused("/accessors/0/count", big, kSyntax, "accessors[0] leaves");
-  expect_refused("/accessors/0/count", 0, kSyntax, "accessors[0] has no elements");
   expect_refused("/accessors/0/byteOffset", 1, kSyntax, "accessors[0] leaves");
   expect_refused("/accessors/0/byteOffset", big, kSyntax, "accessors[0] leaves");
   expect_refused("/accessors/0/bufferView", 9, kSyntax, "accessors[0]");
@@ -68,7 +59,6 @@ TEST(GltfErrors, RefusesWrongTypesByPlace) {
   expect_refused("/nodes/0/matrix", {1, 2, 3}, kSyntax, "nodes[0].matrix has a wrong length");
   expect_refused("/nodes/0/rotation", {1, 2, 3, "x"}, kSyntax, "nodes[0].rotation is not a number");
   expect_refused("/nodes/0/mesh", 5, kSyntax, "nodes[0] names no mesh, 5");
-  expect_refused("/nodes/0/camera", 5, kSyntax, "nodes[0] names no camera, 5");
   expect_refused("/scenes/0/nodes", {4}, kSyntax, "node 4 does not exist");
   expect_refused("/scene", 4, kSyntax, "default scene");
 }
@@ -94,9 +84,6 @@ TEST(GltfErrors, ReadsNodesNestedAsDeepAsAFileLikes) {
 
 TEST(GltfErrors, RefusesBadTriangles) {
   GltfFile file = square();
-  const size_t five = file.add_indices<uint16_t>({0, 1, 2, 3, 0}, kUshort);
-  file.document["meshes"][0]["primitives"][0]["indices"] = five;
-  expect_error(file, kSyntax, "meshes[0].primitives[0] has 5 corners");
   const size_t out = file.add_indices<uint16_t>({0, 1, 4}, kUshort);
   file.document["meshes"][0]["primitives"][0]["indices"] = out;
   expect_error(file, SOBB_ERROR_INDEX, "meshes[0].primitives[0]: index 2 names vertex 4 of 4");
@@ -125,21 +112,6 @@ TEST(GltfErrors, RefusesBadSparseAccessors) {
   expect_error(file, kSyntax, "bufferView");
 }
 
-TEST(GltfErrors, NamesBuffersThatAreMissingOrShort) {
-  const auto refused = [](const std::string& bytes, const std::string& part) {
-    reader_testing::expect_error(read_gltf, bytes, SOBB_ERROR_SCENE_REFERENCE, part);
-  };
-  const GltfFile file = square();
-  refused(file.gltf("missing.bin"), "'missing.bin' cannot be read");
-  refused(file.gltf("http://host/x.bin"), "is not a relative path");
-  refused(file.gltf("/etc/x.bin"), "is not a relative path");
-  refused(file.gltf("a%00b"), "is not a relative path");
-  refused(file.gltf("data:text/plain,abc"), "is not in base64");
-  refused(file.gltf("data:;base64,A*=="), "is malformed");
-  refused(file.gltf("data:;base64,AAAA"), "has 3 bytes of the 60 declared");
-  refused(file.gltf(""), "the binary chunk is missing");
-}
-
 TEST(GltfErrors, RefusesOtherJson) {
   const auto refused = [](const std::string& bytes, const std::string& part) {
     reader_testing::expect_error(read_gltf, bytes, kSyntax, part);
@@ -147,8 +119,9 @@ TEST(GltfErrors, RefusesOtherJson) {
   refused("", "parse error");
   refused("[]", "the document is not an object");
   refused("{\n  \"asset\": }", "line 2, column 12");
-  refused("{}", "asset is not an object");
-  refused(R"({"asset": {}})", "asset");
+  refused("{}", "asset.version is missing");
+  refused(R"({"asset": {}})", "asset.version is missing");
+  refused(R"({"asset": 3})", "asset.version is missing");
   refused(std::string(100'000, '['), "nested deeper");
   refused(R"({"asset": {"version": "2.0"}, "x": 1e999})", "overflow");
 }

@@ -121,8 +121,8 @@ void AccessorReader::check_type(const tinygltf::Accessor& accessor) {
     element_size_ = component_size(type);
     return;
   }
-  const bool possible = type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
-                        (document_.quantized && is_quantized_type(type));
+  const bool possible =
+      type == TINYGLTF_COMPONENT_TYPE_FLOAT || (document_.quantized && is_quantized_type(type));
   if (accessor.type != TINYGLTF_TYPE_VEC3 || !possible) {
     refuse("is not of three floats, as positions must be");
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads glTF 2.0, as .gltf or .glb: every triangle and camera as placed.
 //
-// The room gltf/ shows the way of a file: buffers/ splits a container, fetches bytes and decompresses
-// them, document/ parses the JSON, accessor.h reads elements, nodes.h places the meshes, primitive.h
-// writes their triangles, displaced as morph.h says.
+// The room gltf/ shows the way of a file: buffers/ splits a container, fetches bytes and
+// decompresses them, document/ parses the JSON, accessor.h reads elements, nodes.h places the
+// meshes, primitive.h writes their triangles, displaced as morph.h says.
 #pragma once
 
 #include <string_view>

@@ -35,8 +35,8 @@ std::span<const double> GltfMorph::displacements(const tinygltf::Primitive& prim
 void GltfMorph::add(int accessor, double weight) {
   const uint64_t count = sum_.size() / 3;
   buffers_.writer().work(count);
-  const GltfAccessor target = GltfAccessor::read(document_, buffers_, accessor,
-                                                 GltfAccessor::Use::kDisplacements, count);
+  const GltfAccessor target =
+      GltfAccessor::read(document_, buffers_, accessor, GltfAccessor::Use::kDisplacements, count);
   for (uint64_t i = 0; i < count; ++i) {
     const std::array<double, 3> displacement = target.position(i);
     for (size_t k = 0; k < 3; ++k) sum_[3 * i + k] += weight * displacement[k];

@@ -18,8 +18,9 @@ class GltfMorph {
       : document_(document), buffers_(buffers) {}
 
   // The sum of the targets of `primitive`, each times its weight: x, y, z of each of `count`
-  // vertices, good until the next call; empty where no weight is other than zero. Weights beyond the
-  // targets are ignored, and those that are missing are zero. Errors: those of GltfAccessor::read().
+  // vertices, good until the next call; empty where no weight is other than zero. Weights beyond
+  // the targets are ignored, and those that are missing are zero. Errors: those of
+  // GltfAccessor::read().
   std::span<const double> displacements(const tinygltf::Primitive& primitive,
                                         const std::vector<double>& weights, uint64_t count);
 

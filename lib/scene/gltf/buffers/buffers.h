@@ -2,8 +2,8 @@
 // Fetches the bytes of a glTF file's buffers: the binary chunk, data URIs, files beside it; and of
 // its buffer views, compressed or not.
 //
-// The room gltf/buffers/ has where bytes come from: glb.h splits a container, uri.h understands what
-// a buffer names, meshopt.h and draco.h decompress.
+// The room gltf/buffers/ has where bytes come from: glb.h splits a container, uri.h understands
+// what a buffer names, meshopt.h and draco.h decompress.
 #pragma once
 
 #include <cstdint>
@@ -58,7 +58,7 @@ class GltfBuffers {
   std::vector<std::optional<std::string_view>> fetched_;
   std::map<size_t, std::string> decoded_;       // data URIs, by buffer
   std::map<size_t, std::string> decompressed_;  // by buffer view
-  std::map<std::string, FileBytes> files_;  // by path, since buffers may share one
+  std::map<std::string, FileBytes> files_;      // by path, since buffers may share one
 };
 
 }  // namespace sobb

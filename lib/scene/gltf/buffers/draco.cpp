@@ -38,9 +38,9 @@ namespace {
 constexpr uint16_t kBitstream = DRACO_BITSTREAM_VERSION(2, 2);
 
 // What libdraco takes at most, which has no limit of its own: per byte of the data, for the tables
-// of its entropy decoder and for metadata, and once for a look-up table; per face; per face for each
-// attribute that has a connectivity of its own; per point and attribute, beside the values, which it
-// keeps as integers too.
+// of its entropy decoder and for metadata, and once for a look-up table; per face; per face for
+// each attribute that has a connectivity of its own; per point and attribute, beside the values,
+// which it keeps as integers too.
 constexpr uint64_t kTableBytesPerByte = 896;
 constexpr uint64_t kLookUpBytes = 4 << 20;
 constexpr uint64_t kFaceBytes = 320;
@@ -126,7 +126,8 @@ class DracoStages {
   void check_decoding_room(uint64_t bytes) const {
     if (!writer_.has_limit() && bytes > kMostWithoutLimit) {
       fail(SOBB_ERROR_MEMORY_LIMIT,
-           "%s: libdraco may take %llu bytes, more than the 4 GiB that it has without a memory limit",
+           "%s: libdraco may take %llu bytes, more than the 4 GiB that it has without a memory "
+           "limit",
            writer_.name().c_str(), static_cast<unsigned long long>(bytes));
     }
     writer_.check_room(bytes);

@@ -43,9 +43,8 @@ Mode mode_of(const GltfMeshopt& view, const std::string& place, const SceneWrite
 void check(const GltfMeshopt& view, Mode mode, const std::string& place,
            const SceneWriter& writer) {
   const uint64_t stride = view.byte_stride;
-  const bool possible = mode == Mode::kAttributes
-                            ? stride >= 4 && stride <= 256 && stride % 4 == 0
-                            : stride == 2 || stride == 4;
+  const bool possible = mode == Mode::kAttributes ? stride >= 4 && stride <= 256 && stride % 4 == 0
+                                                  : stride == 2 || stride == 4;
   if (!possible) {
     refuse(SOBB_ERROR_SCENE_SYNTAX, view, place, writer,
            "a byteStride of " + std::to_string(stride));
@@ -54,7 +53,8 @@ void check(const GltfMeshopt& view, Mode mode, const std::string& place,
     refuse(SOBB_ERROR_SCENE_SYNTAX, view, place, writer,
            std::to_string(view.count) + " indices are no whole triangles");
   }
-  const uint64_t most = mode == Mode::kAttributes ? view.byte_length * kMostVertexBytesPerByte / stride
+  const uint64_t most = mode == Mode::kAttributes
+                            ? view.byte_length * kMostVertexBytesPerByte / stride
                         : mode == Mode::kTriangles ? view.byte_length * kWholeTriangle
                                                    : view.byte_length;
   if (view.count > most) {

@@ -21,23 +21,48 @@ constexpr std::string_view kRead[] = {"KHR_mesh_quantization", "KHR_draco_mesh_c
                                       "KHR_node_visibility"};
 
 // Extensions that change triangles only where an object of the document holds them.
-constexpr std::string_view kHeldByGeometry[] = {
-    "EXT_mesh_gpu_instancing", "CESIUM_RTC", "AGI_articulations", "MPEG_mesh_linking",
-    "MPEG_accessor_timed",     "MPEG_buffer_circular"};
+constexpr std::string_view kHeldByGeometry[] = {"EXT_mesh_gpu_instancing", "CESIUM_RTC",
+                                                "AGI_articulations",       "MPEG_mesh_linking",
+                                                "MPEG_accessor_timed",     "MPEG_buffer_circular"};
 
 // Extensions of what is ignored anyway, by the beginning of what follows the vendor's prefix:
 // materials, textures, lights, animation, sound, physics, points, metadata, editors' and players'
 // data, and finer or coarser versions of meshes that are there.
-constexpr std::string_view kIgnoredKinds[] = {
-    "materials",         "texture",        "lights",        "lightmap",
-    "image",             "packing",        "techniques",    "environment",
-    "animation",         "audio",          "physics",       "implicit_shapes",
-    "interactivity",     "node_hover",     "node_select",   "gaussian",
-    "xmp",               "structural",     "mesh_features", "instance_features",
-    "feature_metadata",  "stk_metadata",   "bim_data",      "geometry_metadata",
-    "primitive_outline", "mesh_manifold",  "ngon",          "bmesh_encoding",
-    "single_root",       "hubs_components", "components",   "viewport",
-    "lod",               "mesh_variants",  "progressive"};
+constexpr std::string_view kIgnoredKinds[] = {"materials",
+                                              "texture",
+                                              "lights",
+                                              "lightmap",
+                                              "image",
+                                              "packing",
+                                              "techniques",
+                                              "environment",
+                                              "animation",
+                                              "audio",
+                                              "physics",
+                                              "implicit_shapes",
+                                              "interactivity",
+                                              "node_hover",
+                                              "node_select",
+                                              "gaussian",
+                                              "xmp",
+                                              "structural",
+                                              "mesh_features",
+                                              "instance_features",
+                                              "feature_metadata",
+                                              "stk_metadata",
+                                              "bim_data",
+                                              "geometry_metadata",
+                                              "primitive_outline",
+                                              "mesh_manifold",
+                                              "ngon",
+                                              "bmesh_encoding",
+                                              "single_root",
+                                              "hubs_components",
+                                              "components",
+                                              "viewport",
+                                              "lod",
+                                              "mesh_variants",
+                                              "progressive"};
 
 bool is_ignored(std::string_view extension) {
   if (extension == "VRM" || extension.starts_with("VRMC_")) return true;
@@ -90,8 +115,9 @@ class ExtensionCheck {
   void check_required(const std::string& extension) {
     if (is_one_of(kRead, extension)) return;
     const bool held = geometry_.count(extension) != 0;
-    const bool harmless = is_ignored(extension) ||
-                          (!held && (is_one_of(kHeldByGeometry, extension) || held_at_all(extension)));
+    const bool harmless =
+        is_ignored(extension) ||
+        (!held && (is_one_of(kHeldByGeometry, extension) || held_at_all(extension)));
     if (!harmless) refuse("requires", extension);
     writer_.note(SOBB_NOTE_EXTENSION,
                  [&] { return "the required extension " + extension + " was not read"; });

@@ -12,8 +12,7 @@ namespace {
 using nlohmann::json;
 using Kind = JsonKind;
 
-constexpr const char* kAccessorTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4",
-                                          "MAT2",   "MAT3", "MAT4"};
+constexpr const char* kAccessorTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
 constexpr int kFirstComponentType = TINYGLTF_COMPONENT_TYPE_BYTE;
 constexpr int kLastComponentType = TINYGLTF_COMPONENT_TYPE_DOUBLE;
 
@@ -32,7 +31,10 @@ class GeometryFilter {
     copy_all(result, "nodes", GltfItem::kNode, json::object(), &GeometryFilter::copy_node);
     copy_all(result, "meshes", GltfItem::kMesh, json::object(), &GeometryFilter::copy_mesh);
     copy_all(result, "accessors", GltfItem::kAccessor,
-             {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", 1}, {"type", "VEC3"}},
+             {{"bufferView", document_.views.size()},
+              {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+              {"count", 1},
+              {"type", "VEC3"}},
              &GeometryFilter::copy_accessor);
     copy_cameras(result, {{"type", "perspective"}, {"perspective", lens}});
     const json view = {{"buffer", 0}, {"byteLength", 1}};
@@ -90,13 +92,14 @@ class GeometryFilter {
                                    {"weights", Kind::kNumbers}},
                                   place);
     copy_name(given, result);
-    const std::string fault = source_.fault_of(
-        [&] { result.update(source_.members(given, {{"camera", Kind::kIndex}}, place)); });
+    const std::string fault = source_.fault_of([&] {
+      result.update(source_.members(given, {{"camera", Kind::kIndex}}, place));
+    });
     if (!fault.empty()) document_.faults.add_part(fault);
     const json* const visibility = extension_of(given, "KHR_node_visibility");
     if (visibility != nullptr) {
-      const json visible = source_.members(*visibility, {{"visible", Kind::kBool}},
-                                           place + ".KHR_node_visibility");
+      const json visible =
+          source_.members(*visibility, {{"visible", Kind::kBool}}, place + ".KHR_node_visibility");
       document_.hidden[index_] = !visible.value("visible", true);
     }
     return result;
@@ -106,7 +109,8 @@ class GeometryFilter {
   void check_accessor(const json& members, const char* key, const std::string& place) const {
     const auto found = members.find(key);
     if (found == members.end() || found->get<size_t>() < accessor_count_) return;
-    source_.refuse(place + "." + key, "names accessors[" + found->dump() + "], which does not exist");
+    source_.refuse(place + "." + key,
+                   "names accessors[" + found->dump() + "], which does not exist");
   }
 
   json copy_attributes(const json& given, const std::string& place) const {
@@ -126,7 +130,8 @@ class GeometryFilter {
     copy_targets(given, result, place);
     const json* const draco = extension_of(given, "KHR_draco_mesh_compression");
     if (draco != nullptr) {
-      document_.draco[{int(index_), index}] = copy_draco(*draco, place + ".KHR_draco_mesh_compression");
+      document_.draco[{int(index_), index}] =
+          copy_draco(*draco, place + ".KHR_draco_mesh_compression");
     }
     return result;
   }
@@ -184,11 +189,10 @@ class GeometryFilter {
         std::ranges::find(kAccessorTypes, result["type"]) == std::end(kAccessorTypes)) {
       source_.refuse(place, "has an unknown type or componentType");
     }
-    result.update(source_.members(given,
-                                  {{"bufferView", Kind::kIndex},
-                                   {"byteOffset", Kind::kSize},
-                                   {"normalized", Kind::kBool}},
-                                  place));
+    result.update(source_.members(
+        given,
+        {{"bufferView", Kind::kIndex}, {"byteOffset", Kind::kSize}, {"normalized", Kind::kBool}},
+        place));
     settle_view(result, true, place);
     if (given.contains("sparse")) {
       result["sparse"] = copy_sparse(source_.object(given, "sparse", place), place + ".sparse");

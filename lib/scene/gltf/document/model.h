@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is kept of a glTF's JSON: TinyGLTF's data model, whose header is included only here, and what
-// TinyGLTF does not read or reads otherwise.
+// What is kept of a glTF's JSON: TinyGLTF's data model, whose header is included only here, and
+// what TinyGLTF does not read or reads otherwise.
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ struct GltfDocument {
   // Its buffers, images and materials are empty. It has a buffer view more than the document: an
   // accessor without a view names that one, since TinyGLTF refuses indices that name none.
   tinygltf::Model model;
-  std::vector<GltfBuffer> buffers;  // as declared
-  std::vector<GltfView> views;      // as declared
+  std::vector<GltfBuffer> buffers;                    // as declared
+  std::vector<GltfView> views;                        // as declared
   std::map<std::pair<int, size_t>, GltfDraco> draco;  // by mesh and primitive
   std::vector<bool> hidden;                           // nodes that KHR_node_visibility hides
   bool quantized = false;  // KHR_mesh_quantization: positions may be integers
