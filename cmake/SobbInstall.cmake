@@ -39,6 +39,8 @@ set(sobb_pc_tbb)
 if(SOBB_WITH_TBB)
   set(sobb_pc_tbb -ltbb)
 endif()
+list(TRANSFORM SOBB_DECODERS PREPEND "-l" OUTPUT_VARIABLE sobb_decoder_flags)
+list(JOIN sobb_decoder_flags " " sobb_decoder_flags)
 foreach(library IN LISTS sobb_libraries)
   configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${library}.pc

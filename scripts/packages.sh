@@ -5,7 +5,7 @@
 # Compilers, tools and libraries of a release build, and Python's virtual environments.
 build_packages="g++ cmake ninja-build ccache pkg-config
   libembree-dev libtbb-dev libhwy-dev libxxhash-dev libtinygltf-dev nlohmann-json3-dev
-  libopenmesh-dev libbenchmark-dev libcli11-dev python3-venv"
+  libopenmesh-dev libdraco-dev libmeshoptimizer-dev libbenchmark-dev libcli11-dev python3-venv"
 
 # What scripts/test.sh needs besides.
 test_packages="git libgtest-dev clang-format-14"

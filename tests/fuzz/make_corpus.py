@@ -17,6 +17,39 @@ import sobb
 
 NAMES = "hairball", "wool", "pipes", "foliage", "city", "terrain"
 
+# A grid of three by three squares, as the encoders of libdraco and libmeshoptimizer write it. Of
+# Draco's, "valence" and "one-part" have normals and texture coordinates too.
+DRACO = {
+    "edgebreaker": (
+        "RFJBQ08CAgEBAAAAEBIAEgIABu/T6lOtGv8BEQH/AAABAAkDAAACAQEBAQKsAQEw//+frQYBCFUBCZ5NFVVY0q"
+        "O/nAAAAAD/AAAAAAAAAAAAAAAAAAAAAABAQAg="
+    ),
+    "valence": (
+        "RFJBQ08CAgEBAAAAEBICEgIABu/T6lOtGv8BEf8Ca0H/AmtBA/8AAQAAAAEAAAEACQMAAAIBAQkDAAEDAQMJAg"
+        "ACAgEBAQEFrAEBMP//n60GAQhVAQmeTRVVWNKjv5wAAAAA/wAAAAAAAAAAAAAAAAAAAAAAQEAIBgMBAAcDARAP"
+        "ATAEALxDhxAfLwLyHjHy8iLGbMzKOhuzsSo/AAAAHwAAAP8CEUEGBQEBAAcDARgHAQgBGAEIBgACSGe+h+qqpt"
+        "1m2gHBsMNO0wAADgAAABID+DCCAAAAAD8AAAAAAAAAAAAAAAAAQEAG"
+    ),
+    "one-part": (
+        "RFJBQ08CAgEBAAAAEBIAEgIABu/T6lOtGv8BEQH/AAADAAkDAAABCQMAAQMJAgACAgMCAAEBAQGtAVUVA1UB//"
+        "+XVRFdFVUBVQEO5guBxJ427QvfSz9DzoQAAAAA/wAAAAADAQEBIAE+dwECAwC/kz8AAAAfAAAAAAEBAQEtARAD"
+        "AQKXARIBGAECAQIKgI2/am4aOGKfTgAAAAA/AAAAAAAAAAAAAAAAAAAAAABAQAgGAAAAAAAAAAAAAEBABg=="
+    ),
+    "sequential": (
+        "RFJBQ08CAgEAAAASEAEAAQICAQMBBAMDBAUEBgUFBgcCAwgIAwkDBQkJBQoFBwoKBwsICQwMCQ0JCg0NCg4KCw"
+        "4OCw8BAQAJAwAAAgABAQEDqwGtGgOtAv//l1UJVRkMZiwo8vRv/H7PydOtAAAAAP8AAAAAAAAAAAAAAAAAAAAA"
+        "AEBACA=="
+    ),
+}
+MESHOPT = {
+    "ATTRIBUTES": (
+        "oAAAAwD//4B///+Af///gH///4ABOPj4+H5/fn9+f34AAAEAwMDA//+AAQDAgAB+AAABM8888/////////////"
+        "8BM8888359fn1+fX59fn0AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA=="
+    ),
+    "TRIANGLES": "4P4fEA8QD48fFA8TD48fEw8TDw8IAgICAgICAgICAgIAdodWZ3iphmWJaJgBaQAA",
+    "INDICES": "0AAEDAAKEA4EDAAKEA4EDAAKEAoEDAAKEA4EDAAKEA4EDAAKEAoEDAAKEA4EDAAKEA4EDAAKEAAAAAA=",
+}
+
 
 def hierarchies():
     """Small .sobb files of every volume, width and k, from one scene after another."""
@@ -119,18 +152,19 @@ def stl(v, f):
 
 
 def document(v, f, uri):
-    """A glTF with nodes of every kind, a camera, a strip, a fan and a sparse accessor."""
-    buffer = v.astype("<f4").tobytes() + f.astype("<u2").tobytes()
+    """A glTF with nodes of every kind, a camera, a strip, a fan, sparse accessors, targets."""
+    buffer = v.astype("<f4").tobytes() + f.astype("<u2").tobytes() + bytes([0, 2, 5])
     indices = f.size
     gltf = {
         "asset": {"version": "2.0"},
         "scene": 0,
-        "scenes": [{"nodes": [0, 3]}],
+        "scenes": [{"nodes": [0, 3, 4]}],
         "nodes": [
             {"name": "root", "children": [1, 2], "translation": [1, 2, 3]},
             {"mesh": 0, "rotation": [0, 0.6, 0, 0.8], "scale": [1, 2, 1]},
             {"camera": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1]},
-            {"mesh": 1},
+            {"mesh": 1, "weights": [0.5, 0, 2]},
+            {"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}},
         ],
         "cameras": [{"type": "perspective", "perspective": {"yfov": 0.8, "znear": 0.1}}],
         "meshes": [
@@ -138,8 +172,14 @@ def document(v, f, uri):
             {
                 "primitives": [
                     {"attributes": {"POSITION": 0}, "mode": 5},
-                    {"attributes": {"POSITION": 2}, "mode": 6},
-                ]
+                    {
+                        "attributes": {"POSITION": 2},
+                        "mode": 6,
+                        "targets": [{"POSITION": 2}, {"NORMAL": 0}, {"POSITION": 2}],
+                    },
+                    {"attributes": {"POSITION": 0}, "indices": 3},
+                ],
+                "weights": [1, 1, 1],
             },
         ],
         "accessors": [
@@ -155,10 +195,21 @@ def document(v, f, uri):
                     "values": {"bufferView": 0},
                 },
             },
+            {
+                "componentType": 5123,
+                "count": 6,
+                "type": "SCALAR",
+                "sparse": {
+                    "count": 3,
+                    "indices": {"bufferView": 2, "componentType": 5121},
+                    "values": {"bufferView": 1},
+                },
+            },
         ],
         "bufferViews": [
             {"buffer": 0, "byteLength": v.size * 4, "byteStride": 12},
             {"buffer": 0, "byteOffset": v.size * 4, "byteLength": indices * 2},
+            {"buffer": 0, "byteOffset": v.size * 4 + indices * 2, "byteLength": 3},
         ],
         "buffers": [{"byteLength": len(buffer)}],
         "materials": [{"name": "left out"}],
@@ -197,6 +248,49 @@ def gltf(v, f):
     yield "large-names.gltf", json.dumps(large, separators=(",", ":")).encode()
 
 
+def compressed(views, primitive):
+    """A glTF of one primitive. Each of `views` is a view's extension, if any, and its bytes."""
+    buffer = b"".join(data for _, data in views)
+    offsets = [sum(len(data) for _, data in views[:i]) for i in range(len(views))]
+    gltf = {
+        "asset": {"version": "2.0"},
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1} | primitive]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 16, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5123, "count": 54, "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": at, "byteLength": len(data)}
+            | (
+                {
+                    "extensions": {
+                        "EXT_meshopt_compression": extension
+                        | {"buffer": 0, "byteOffset": at, "byteLength": len(data)}
+                    }
+                }
+                if extension
+                else {}
+            )
+            for at, (extension, data) in zip(offsets, views, strict=True)
+        ],
+        "buffers": [{"byteLength": len(buffer)}],
+    }
+    return json.dumps(gltf, separators=(",", ":")).encode() + b"\0" + buffer
+
+
+def compressions():
+    for name, data in DRACO.items():
+        extension = {"bufferView": 0, "attributes": {"POSITION": 0}}
+        primitive = {"extensions": {"KHR_draco_mesh_compression": extension}}
+        yield f"draco-{name}", compressed([({}, base64.b64decode(data))], primitive)
+    for mode in ("TRIANGLES", "INDICES"):
+        views = [
+            ({"byteStride": stride, "count": count, "mode": kind}, base64.b64decode(MESHOPT[kind]))
+            for kind, stride, count in (("ATTRIBUTES", 12, 16), (mode, 2, 54))
+        ]
+        yield f"meshopt-{mode.lower()}", compressed(views, {})
+
+
 def glb(v, f):
     text, buffer = document(v, f, uri=False)
     text += b" " * (-len(text) % 4)
@@ -205,6 +299,7 @@ def glb(v, f):
     chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
     chunks += struct.pack("<II", len(buffer), 0x004E4942) + buffer
     yield "whole.glb", struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+    yield from compressions()
 
 
 def views():
