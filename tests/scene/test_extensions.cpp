@@ -41,6 +41,7 @@ TEST(Extensions, ThatMoveNoTriangleArePassedOverWithANote) {
                                 "KHR_node_hoverability",
                                 "KHR_node_selectability",
                                 "KHR_physics_rigid_bodies",
+                                "KHR_technique_webgl",
                                 "KHR_techniques_webgl",
                                 "KHR_texture_basisu",
                                 "KHR_texture_transform",

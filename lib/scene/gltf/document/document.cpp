@@ -24,9 +24,10 @@ constexpr uint64_t kElementBytes = 2560;
 // The most that a buffer takes, without its URI: its declaration, its fault, what is fetched of it.
 constexpr uint64_t kBufferBytes = 512;
 
-// The most that a placeholder of geometry_of() takes, in its tree and in its text.
-constexpr uint64_t kPlaceholderTreeBytes = 1024;
-constexpr uint64_t kPlaceholderTextBytes = 96;
+// The most that a placeholder of geometry_of() takes more than the element that it stands for, in
+// its tree and in its text: one of an accessor, a camera or a view, and any other.
+constexpr uint64_t kLargePlaceholderBytes = 1024 + kGrowing * 96;
+constexpr uint64_t kPlaceholderBytes = 192 + kGrowing * 8;
 
 // A bound of the text that a tree is written to: numbers may become longer, as 1e15 does.
 uint64_t written_bytes(const JsonSize& size) { return size.string_bytes + 4 * size.other_bytes; }
@@ -49,6 +50,12 @@ uint64_t count_elements(const json& document) {
     }
   }
   return count;
+}
+
+uint64_t placeholder_bytes(const json& document) {
+  const uint64_t large = 1 + size_of(document, "accessors") + size_of(document, "bufferViews") +
+                         size_of(document, "cameras");
+  return large * kLargePlaceholderBytes + count_elements(document) * kPlaceholderBytes;
 }
 
 // Counts what lives on until the scene is made: the model, with its strings and numbers, and the
@@ -92,9 +99,7 @@ FilteredText filter_text(std::string_view text, GltfDocument& document, SceneWri
   const std::string& name = writer.name();
   const json tree = parse_json(text, name, writer);
   const JsonSize size = measure_json(text);
-  const uint64_t placeholders = 1 + count_elements(tree);
-  check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size) +
-                      placeholders * (kPlaceholderTreeBytes + kGrowing * kPlaceholderTextBytes),
+  check_json_room(2 * size.tree_bytes() + kGrowing * written_bytes(size) + placeholder_bytes(tree),
                   name, writer);
   const CheckedJson checked(tree, name);
   check_version(checked);
