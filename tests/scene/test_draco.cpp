@@ -166,8 +166,11 @@ TEST(Draco, NeedsNeitherIndicesNorACountThatIsRight) {
   expect_square(read(file));
   file.document["extensionsRequired"] = {kExtension};
   expect_square(read(file));
-  file.document["accessors"][0]["count"] = 1;
-  expect_square(read(file));
+  for (const int count : {1, 0}) {
+    file.document["accessors"][0]["count"] = count;
+    file.document["accessors"][1]["count"] = count;
+    expect_square(read(file));
+  }
   json& primitive = file.document["meshes"][0]["primitives"][0];
   primitive.erase("indices");
   expect_square(read(file));

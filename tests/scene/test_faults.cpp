@@ -166,6 +166,17 @@ TEST(Faults, OfCornersWithoutATriangleCostThose) {
   expect_note(scene, SOBB_NOTE_SHORT_FACE, 7, "meshes[0].primitives[0]: its last corners");
 }
 
+TEST(Faults, OfEncodingsAreNamed) {
+  const std::string text = square().gltf("data:,");
+  for (const bool little : {true, false}) {
+    std::string wide = little ? "\xFF\xFE" : "\xFE\xFF";
+    for (const char c : text) wide += little ? std::string{c, '\0'} : std::string{'\0', c};
+    reader_testing::expect_error(read_gltf, wide, SOBB_ERROR_SCENE_UNSUPPORTED, "UTF-16");
+  }
+  reader_testing::expect_error(read_gltf, "\xEF\xBB\xBF" + text, SOBB_ERROR_SCENE_REFERENCE,
+                               "buffer 0 has 0 bytes");  // a byte order mark of UTF-8
+}
+
 TEST(Faults, OfVersionsAreNamed) {
   const auto refused = [](const std::string& text, const std::string& part) {
     reader_testing::expect_error(read_gltf, text, SOBB_ERROR_SCENE_UNSUPPORTED, part);

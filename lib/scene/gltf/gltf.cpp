@@ -107,6 +107,7 @@ class GltfReader {
 
   // Returns whether an accessor that the primitive needs has no elements, and notes that.
   bool is_empty(int mesh, size_t index) {
+    if (document_.draco.count({mesh, index}) != 0) return false;
     const tinygltf::Primitive& source = document_.model.meshes[size_t(mesh)].primitives[index];
     for (const int accessor : {source.attributes.at("POSITION"), source.indices}) {
       if (accessor < 0 || document_.faults.has(GltfItem::kAccessor, size_t(accessor))) continue;
@@ -155,6 +156,10 @@ void read_gltf(std::string_view bytes, SceneWriter& writer) {
   if (is_glb(bytes)) chunks = split_glb(bytes, writer);
   // Some writers pad JSON with zeros instead of spaces.
   while (chunks.json.ends_with('\0')) chunks.json.remove_suffix(1);
+  if (chunks.json.starts_with("\xFF\xFE") || chunks.json.starts_with("\xFE\xFF")) {
+    fail(SOBB_ERROR_SCENE_UNSUPPORTED, "%s: JSON in UTF-16: only UTF-8 is read",
+         writer.name().c_str());
+  }
   const GltfDocument document = parse_gltf(chunks.json, writer);
   GltfBuffers buffers(document, chunks.binary, writer);
   GltfReader(document, buffers, writer).read();
