@@ -63,15 +63,38 @@ TEST(GltfErrors, RefusesWrongTypesByPlace) {
   expect_refused("/scene", 4, kSyntax, "default scene");
 }
 
-TEST(GltfErrors, RefusesCyclesAndNodesReachedTwice) {
-  expect_refused("/nodes/0/children", {0}, kSyntax, "nodes[0] is reached twice");
-  expect_refused("/scenes/0/nodes", {0, 0}, kSyntax, "nodes[0] is reached twice");
+TEST(GltfErrors, RefusesCycles) {
+  expect_refused("/nodes/0/children", {0}, kSyntax, "nodes form a cycle at nodes[0]");
   GltfFile file = square();
+  file.document["nodes"][0]["children"] = {1};
+  file.add("nodes", {{"children", {2}}});
+  file.add("nodes", {{"children", {1}}});
+  expect_error(file, kSyntax, "nodes form a cycle at nodes[1]");
+  file.document["nodes"][2]["children"] = {0};
   file.document.erase("scenes");
   file.document.erase("scene");
-  file.document["nodes"][0]["children"] = {1};
-  file.document["nodes"].push_back({{"children", {0}}});
-  expect_error(file, kSyntax, "cycle");
+  expect_error(file, kSyntax, "nodes form a cycle");
+}
+
+TEST(GltfErrors, PlacesANodeBelowEachOfItsParents) {
+  GltfFile file = square();
+  file.add_root({{"children", {0}}, {"translation", {5, 0, 0}}});
+  file.add_root({{"children", {0, 0}}, {"scale", {2, 2, 2}}});
+  const Scene scene = read(file);
+  EXPECT_EQ(scene.meshes.size(), 4U);
+  EXPECT_EQ(area(scene), 1 + 1 + 4 + 4);
+  EXPECT_EQ(scene.bounds_max, (std::array<float, 3>{6, 2, 0}));
+}
+
+// Each node is twice below the one before it: 61 nodes would be placed 2^60 times.
+TEST(GltfErrors, RefusesNodesThatAreTooMany) {
+  GltfFile file = square();
+  for (int i = 0; i < 60; ++i) file.add("nodes", {{"children", {i, i}}});
+  file.document["scenes"][0]["nodes"] = {60};
+  expect_error(file, SOBB_ERROR_TOO_LARGE, "nodes have several parents");
+  Scene scene;
+  SceneWriter writer("scene", 4'000'000, scene);
+  test::expect_failure(SOBB_ERROR_MEMORY_LIMIT, "", [&] { read_gltf(file.glb(), writer); });
 }
 
 TEST(GltfErrors, ReadsNodesNestedAsDeepAsAFileLikes) {

@@ -25,7 +25,7 @@ class GltfReader {
         buffers_(buffers),
         writer_(writer),
         morph_(document, buffers),
-        nodes_(place_gltf_nodes(document, writer.name())),
+        nodes_(place_gltf_nodes(document, writer)),
         meshes_(document.model.meshes.size()) {}
 
   void read() {

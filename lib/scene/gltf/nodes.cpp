@@ -68,27 +68,25 @@ GltfTransform product(const GltfTransform& outer, const GltfTransform& inner) {
   return result;
 }
 
+// Nodes may be placed so many times more than there are nodes.
+constexpr uint64_t kMostPlacedAgain = uint64_t{1} << 22;
+
 class NodeWalk {
  public:
-  NodeWalk(const GltfDocument& document, const std::string& name)
-      : document_(document),
-        model_(document.model),
-        name_(name),
-        reached_(document.model.nodes.size()) {}
+  NodeWalk(const GltfDocument& document, SceneWriter& writer)
+      : document_(document), model_(document.model), writer_(writer) {}
 
   std::vector<GltfPlacedNode> placed_nodes() {
-    push(roots(), {}, false);
+    const std::vector<int> first = roots();
+    check_tree(first);
+    push(first, {}, false);
     std::vector<GltfPlacedNode> result;
-    size_t reached = 0;
     // A stack of our own, no recursion: a file may nest its nodes as deep as it likes.
-    for (; !waiting_.empty(); ++reached) {
+    while (!waiting_.empty()) {
       const Waiting next = waiting_.back();
       waiting_.pop_back();
       if (!next.hidden) result.push_back(next.placed);
       push(model_.nodes[size_t(next.placed.node)].children, next.placed.transform, next.hidden);
-    }
-    if (model_.scenes.empty() && reached != model_.nodes.size()) {
-      fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes form a cycle", name_.c_str());
     }
     return result;
   }
@@ -103,10 +101,9 @@ class NodeWalk {
     if (!model_.scenes.empty()) {
       const int scene = std::max(model_.defaultScene, 0);
       if (size_t(scene) >= model_.scenes.size()) {
-        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: the default scene, %d, does not exist", name_.c_str(),
-             scene);
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: the default scene, %d, does not exist", name(), scene);
       }
-      document_.faults.check(GltfItem::kScene, size_t(scene), name_);
+      document_.faults.check(GltfItem::kScene, size_t(scene), writer_.name());
       return model_.scenes[size_t(scene)].nodes;
     }
     std::vector<bool> child(model_.nodes.size());
@@ -122,26 +119,73 @@ class NodeWalk {
     return result;
   }
 
+  // Checks that every node reached exists, is well formed, and is not below itself.
+  void check_tree(const std::vector<int>& first) {
+    enum State : char { kNew, kOpen, kDone };
+    std::vector<State> states(model_.nodes.size(), kNew);
+    struct Step {
+      const std::vector<int>* nodes;
+      size_t next;
+    };
+    std::vector<Step> path{{&first, 0}};
+    std::vector<int> open;
+    while (!path.empty()) {
+      Step& step = path.back();
+      if (step.next == step.nodes->size()) {
+        path.pop_back();
+        if (open.empty()) break;
+        states[size_t(open.back())] = kDone;
+        open.pop_back();
+        continue;
+      }
+      const int node = (*step.nodes)[step.next++];
+      if (node < 0 || size_t(node) >= states.size()) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: node %d does not exist", name(), node);
+      }
+      document_.faults.check(GltfItem::kNode, size_t(node), writer_.name());
+      if (states[size_t(node)] == kOpen) {
+        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes form a cycle at nodes[%d]", name(), node);
+      }
+      if (states[size_t(node)] == kDone) continue;
+      states[size_t(node)] = kOpen;
+      open.push_back(node);
+      path.push_back({&model_.nodes[size_t(node)].children, 0});
+    }
+    if (model_.scenes.empty() && std::ranges::count(states, kNew) != 0) {
+      fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes form a cycle", name());
+    }
+  }
+
   void push(const std::vector<int>& nodes, const GltfTransform& parent, bool hidden) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
-      if (*node < 0 || size_t(*node) >= reached_.size()) {
-        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: node %d does not exist", name_.c_str(), *node);
-      }
+      count_placed();
       const auto index = size_t(*node);
-      if (reached_[index]) {
-        fail(SOBB_ERROR_SCENE_SYNTAX, "%s: nodes[%d] is reached twice", name_.c_str(), *node);
-      }
-      document_.faults.check(GltfItem::kNode, index, name_);
-      reached_[index] = true;
       waiting_.push_back({{*node, product(parent, local_transform(model_.nodes[index]))},
                           hidden || document_.hidden[index]});
     }
   }
 
+  // A node is to have one parent. Writers that give it several mean an instance below each; few
+  // nodes may then be very many.
+  void count_placed() {
+    writer_.work(1);
+    if (++placed_ <= model_.nodes.size()) return;
+    if (placed_ > model_.nodes.size() + kMostPlacedAgain) {
+      fail(SOBB_ERROR_TOO_LARGE, "%s: nodes have several parents, and are placed too often",
+           name());
+    }
+    writer_.hold(kPlacedBytes);
+  }
+
+  const char* name() const { return writer_.name().c_str(); }
+
+  // In two arrays that double.
+  static constexpr uint64_t kPlacedBytes = 3 * (sizeof(GltfPlacedNode) + sizeof(Waiting));
+
   const GltfDocument& document_;
   const tinygltf::Model& model_;
-  const std::string& name_;
-  std::vector<bool> reached_;
+  SceneWriter& writer_;
+  uint64_t placed_ = 0;
   std::vector<Waiting> waiting_;
 };
 
@@ -161,9 +205,8 @@ std::array<double, 3> GltfTransform::point(const std::array<double, 3>& p) const
   return result;
 }
 
-std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document,
-                                             const std::string& name) {
-  return NodeWalk(document, name).placed_nodes();
+std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document, SceneWriter& writer) {
+  return NodeWalk(document, writer).placed_nodes();
 }
 
 }  // namespace sobb

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "scene/gltf/document/model.h"
+#include "scene/model/scene_writer.h"
 
 namespace sobb {
 
@@ -27,8 +27,8 @@ struct GltfPlacedNode {
 
 // Every node of the scene to show, parents before children, siblings in the file's order. That is
 // the default scene, else the first, else all roots; a hidden node is left out, and so are those
-// below it. Error SCENE_SYNTAX, with `name`, for a node that is malformed, does not exist or is
-// reached twice, as in a cycle.
-std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document, const std::string& name);
+// below it. A node of several parents is placed below each. Errors: SCENE_SYNTAX for a node that is
+// malformed, does not exist or is below itself; TOO_LARGE, MEMORY_LIMIT, CANCELLED.
+std::vector<GltfPlacedNode> place_gltf_nodes(const GltfDocument& document, SceneWriter& writer);
 
 }  // namespace sobb
