@@ -18,7 +18,7 @@ python3 -m venv "$folder/venv"
 "$folder/venv/bin/python" -m build --sdist --outdir "$folder" python >/dev/null
 
 # The studies, their charts and the tests of bench/research stay at home.
-git ls-files bench capi cmake lib third_party CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md python \
+git ls-files bench capi cmake lib CMakeLists.txt LICENSE THIRD_PARTY_NOTICES.md python \
   ':!bench/research/'{charts,study,study_charts.py,tests} |
   sed 's|^python/|/|' | sort >"$folder/sources"
 tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/native/||' |
