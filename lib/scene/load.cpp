@@ -28,7 +28,7 @@ void load_builtin(const std::string& source, const char* views_path, SceneWriter
   std::vector<sobb_view> views = make_builtin(name, writer);
   writer.finish();
   if (views_path != nullptr) scene.views = read_views(views_path, name.scene, writer);
-  for (sobb_view& view : scene.views) view = turn_of(name).view(view);
+  for (sobb_view& view : scene.views) view = turn_of(name, writer.origin()).view(view);
   if (scene.views.empty()) scene.views = std::move(views);
 }
 
@@ -77,7 +77,7 @@ void load_file(const std::string& path, const char* views_path, SceneWriter& wri
 }  // namespace
 
 Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit,
-                 Progress* progress) {
+                 Progress* progress, Vec3 origin) {
   const SourceName name = parse_source(source);
   const bool subdivided = name.subdivisions > 0;
   if (subdivided && progress != nullptr) progress->set_part(0, kLoadedShare);
@@ -85,10 +85,12 @@ Scene load_scene(const std::string& source, const char* views_path, uint64_t mem
   if (is_builtin(source)) {
     const std::string turned = name.scene + name.turn;
     SceneWriter writer(turned, memory_limit, scene, progress);
+    writer.set_origin(origin);
     load_builtin(turned, views_path, writer, scene);
   } else {
     const double degrees = name.turn.empty() ? 0 : parse_degrees(source, name.turn.substr(1));
     SceneWriter writer(name.scene, memory_limit, scene, progress);
+    writer.set_origin(origin);
     load_file(name.scene, views_path, writer, scene);
     if (degrees != 0) turn_scene(source, degrees, scene, progress);
   }

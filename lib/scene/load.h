@@ -20,8 +20,8 @@
 namespace sobb {
 
 // Does what sobb_scene_load() in capi/include/sobb/scene.h promises. `views_path` and `progress`
-// may be null.
+// may be null; `origin` is finite.
 Scene load_scene(const std::string& source, const char* views_path, uint64_t memory_limit,
-                 Progress* progress = nullptr);
+                 Progress* progress = nullptr, Vec3 origin = {});
 
 }  // namespace sobb

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -31,6 +32,15 @@ const Element& element(const std::vector<Element>& array, uint64_t index, const 
   return array[size_t(index)];
 }
 
+sobb::Vec3 read_origin(const double* xyz) {
+  for (int k = 0; k < 3; ++k) {
+    if (!std::isfinite(xyz[k])) {
+      sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "sobb_scene_options: origin[%d] is %g", k, xyz[k]);
+    }
+  }
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
 }  // namespace
 
 extern "C" {
@@ -45,7 +55,8 @@ sobb_status sobb_scene_load(const char* source, const sobb_scene_options* option
       sobb::fail(SOBB_ERROR_INVALID_ARGUMENT, "sobb_scene_options: reserved is not zero");
     }
     sobb::Progress progress(known.progress, known.progress_user, "loading");
-    sobb::Scene scene = sobb::load_scene(source, known.views_path, known.memory_limit, &progress);
+    sobb::Scene scene = sobb::load_scene(source, known.views_path, known.memory_limit, &progress,
+                                         read_origin(known.origin));
     *out = std::make_unique<sobb_scene>(std::move(scene)).release();
   });
 }

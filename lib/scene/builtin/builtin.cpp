@@ -96,8 +96,8 @@ BuiltinName parse_builtin(const std::string& source) {
   return result;
 }
 
-ObliqueTurn turn_of(const BuiltinName& name) {
-  return {name.degrees, find_scene(name.scene)->centre};
+ObliqueTurn turn_of(const BuiltinName& name, Vec3 origin) {
+  return {name.degrees, find_scene(name.scene)->centre - origin};
 }
 
 std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer) {
@@ -111,8 +111,8 @@ std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer
   std::vector<sobb_view> views;
   for (const BuiltinView& view : scene.views) {
     sobb_view& turned = views.emplace_back();
-    narrow(turn.point(view.eye), turned.eye);
-    narrow(turn.point(view.target), turned.target);
+    narrow(turn.point(view.eye) - writer.origin(), turned.eye);
+    narrow(turn.point(view.target) - writer.origin(), turned.target);
     narrow(turn.vector({0, 1, 0}), turned.up);
     turned.vfov_degrees = float(view.vfov_degrees);
   }

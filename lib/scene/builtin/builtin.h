@@ -27,10 +27,11 @@ bool is_builtin(std::string_view source);
 // for a number that is none or out of range.
 BuiltinName parse_builtin(const std::string& source);
 
-// The turn that the name asks for.
-ObliqueTurn turn_of(const BuiltinName& name);
+// The turn that the name asks for, of what is relative to an origin.
+ObliqueTurn turn_of(const BuiltinName& name, Vec3 origin = {});
 
-// Writes the scene's triangles, turned; returns its views, turned.
+// Writes the scene's triangles, turned; returns its views, turned, both relative to the writer's
+// origin.
 std::vector<sobb_view> make_builtin(const BuiltinName& name, SceneWriter& writer);
 
 }  // namespace sobb

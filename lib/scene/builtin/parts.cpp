@@ -13,7 +13,7 @@ PartsWriter::PartsWriter(SceneWriter& writer, uint64_t budget, const ObliqueTurn
 
 void PartsWriter::vertex(Vec3 p) {
   const Vec3 q = turn_.point(p);
-  writer_.add_vertex(float(q.x), float(q.y), float(q.z), "made");
+  writer_.add_vertex(q.x, q.y, q.z, "made");
 }
 
 void PartsWriter::face(uint64_t a, uint64_t b, uint64_t c) {

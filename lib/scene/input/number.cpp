@@ -68,7 +68,8 @@ namespace {
 // The notations of numbers that std::from_chars does not take: exponents of Fortran's, as in
 // 1.5D+00 and 1.5+100, or with the sign before the letter, and what Microsoft's C once wrote for
 // not-a-number and infinity, as in -1.#IND.
-bool parse_other_notation(std::string_view word, float& value) {
+template <class T>
+bool parse_other_notation(std::string_view word, T& value) {
   constexpr size_t kLongest = 64;
   if (word.size() > kLongest) return false;
   std::string number;
@@ -86,27 +87,31 @@ bool parse_other_notation(std::string_view word, float& value) {
   return number != word && parse_number(number, value);
 }
 
-}  // namespace
-
-bool parse_number(std::string_view word, float& value) {
+template <class T>
+bool parse_number_as(std::string_view word, T& value) {
   const std::string_view number = without_plus(word);
   const char* end = number.data() + number.size();
-  const auto narrow = std::from_chars(number.data(), end, value);
-  if (narrow.ptr != end || narrow.ec == std::errc::invalid_argument) {
+  const auto direct = std::from_chars(number.data(), end, value);
+  if (direct.ptr != end || direct.ec == std::errc::invalid_argument) {
     return parse_other_notation(word, value);
   }
-  if (narrow.ec == std::errc()) return true;
+  if (direct.ec == std::errc()) return true;
   double wide = 0;
   if (std::from_chars(number.data(), end, wide).ec == std::errc::result_out_of_range) {
     wide = is_tiny(number) ? 0.0 : number.front() == '-' ? -DBL_MAX : DBL_MAX;
   }
-  value = nearest_float(wide);
+  value = static_cast<T>(within_float(wide));
   return true;
 }
 
-float nearest_float(double value) {
-  if (std::isfinite(value)) value = std::clamp<double>(value, -FLT_MAX, FLT_MAX);
-  return static_cast<float>(value);
+}  // namespace
+
+bool parse_number(std::string_view word, float& value) { return parse_number_as(word, value); }
+
+bool parse_number(std::string_view word, double& value) { return parse_number_as(word, value); }
+
+double within_float(double value) {
+  return std::isfinite(value) ? std::clamp<double>(value, -FLT_MAX, FLT_MAX) : value;
 }
 
 }  // namespace sobb

@@ -26,6 +26,12 @@ class SceneWriter {
 
   const std::string& name() const { return name_; }
 
+  // The point that is subtracted from all vertices, cameras and views in double, before they are
+  // rounded to float; zero unless it is set, before reading.
+  void set_origin(Vec3 origin) { origin_ = origin; }
+  Vec3 origin() const { return origin_; }
+  bool has_origin() const { return origin_.x != 0 || origin_.y != 0 || origin_.z != 0; }
+
   // The reader holds `bytes` more of its own (the file, its buffers): they count against the limit.
   // Error MEMORY_LIMIT.
   void hold(uint64_t bytes);
@@ -50,13 +56,16 @@ class SceneWriter {
 
   // Adds a vertex. `place` says where in the source it is, as in "line 12" or "mesh 3, vertex 7":
   // text, or, where making that for every vertex would cost too much, a function that makes it for
-  // an error. A vertex that is not finite or beyond 2^60 is kept until finish(), but no polygon may
-  // use it. Error MEMORY_LIMIT.
-  void add_vertex(float x, float y, float z, const char* place) {
+  // an error. It is rounded to float here. One that is then not finite or beyond 2^60 is kept until
+  // finish(), but no polygon may use it. Error MEMORY_LIMIT.
+  void add_vertex(double x, double y, double z, const char* place) {
     add_vertex(x, y, z, [place] { return std::string(place); });
   }
   template <std::invocable Place>
-  void add_vertex(float x, float y, float z, const Place& place) {
+  void add_vertex(double wide_x, double wide_y, double wide_z, const Place& place) {
+    const float x = static_cast<float>(wide_x - origin_.x);
+    const float y = static_cast<float>(wide_y - origin_.y);
+    const float z = static_cast<float>(wide_z - origin_.z);
     if (!in_range(x) || !in_range(y) || !in_range(z)) note_unusable(x, y, z, place());
     work(1);
     std::vector<float>& vertices = scene_.vertices;
@@ -114,7 +123,10 @@ class SceneWriter {
   }
 
   // Keeps a camera of the source, from which views can be made once the scene is measured.
-  void add_camera(const SceneCamera& camera) { cameras_.push_back(camera); }
+  void add_camera(SceneCamera camera) {
+    camera.eye = camera.eye - origin_;
+    cameras_.push_back(camera);
+  }
   const std::vector<SceneCamera>& cameras() const { return cameras_; }
 
   // Ends the scene: closes the last mesh, counts degenerate triangles, measures the bounds, and
@@ -155,6 +167,7 @@ class SceneWriter {
   uint64_t memory_limit_;
   uint64_t held_ = 0;
   Scene& scene_;
+  Vec3 origin_;
   uint64_t unusable_ = 0;     // vertices that no polygon may use
   std::vector<Vec3> points_;  // of the polygon that is split
   std::vector<SceneCamera> cameras_;

@@ -107,7 +107,7 @@ void write_mesh(const Scene& scene, unsigned subdivisions, const ReportingMesh& 
                 SceneWriter& writer) {
   for (const ReportingMesh::VertexHandle vertex : mesh.vertices()) {
     const ReportingMesh::Point& p = mesh.point(vertex);
-    writer.add_vertex(float(p[0]), float(p[1]), float(p[2]), "subdivided");
+    writer.add_vertex(p[0], p[1], p[2], "subdivided");
   }
   const uint64_t triangles = scene.indices.size() / 3;
   for (const SceneMesh& from : scene.meshes) {

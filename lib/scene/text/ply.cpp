@@ -112,14 +112,14 @@ void read_vertices(const PlyLayout& layout, Items& items, SceneWriter& writer) {
   const std::vector<PlyProperty>& properties = layout.vertices->properties;
   for (uint64_t i = 0; i < layout.vertices->count; ++i) {
     items.begin(*layout.vertices, i);
-    float xyz[3] = {};
+    double xyz[3] = {};
     for (size_t p = 0; p < properties.size(); ++p) {
       if (p == layout.xyz[0]) {
-        xyz[0] = items.number(properties[p]);
+        xyz[0] = items.coordinate(properties[p]);
       } else if (p == layout.xyz[1]) {
-        xyz[1] = items.number(properties[p]);
+        xyz[1] = items.coordinate(properties[p]);
       } else if (p == layout.xyz[2]) {
-        xyz[2] = items.number(properties[p]);
+        xyz[2] = items.coordinate(properties[p]);
       } else {
         skip_property(properties[p], items);
       }

@@ -27,7 +27,7 @@ class PlyTextItems {
   }
   void end() { text_.pass_surplus(); }
 
-  float number(const PlyProperty& property) { return text_.number(property.name.c_str()); }
+  double coordinate(const PlyProperty& property) { return text_.coordinate(property.name.c_str()); }
   uint64_t length(const PlyProperty&) { return text_.count("a list's length", UINT32_MAX); }
   uint64_t vertex_index(const PlyProperty&, uint64_t vertices) {
     return text_.vertex_index(vertices);
@@ -61,7 +61,7 @@ class PlyBinaryItems {
   }
   void end() {}
 
-  float number(const PlyProperty& property) { return nearest_float(value(property.type)); }
+  double coordinate(const PlyProperty& property) { return within_float(value(property.type)); }
   uint64_t length(const PlyProperty& property);
   uint64_t vertex_index(const PlyProperty& property, uint64_t vertices);
   bool take_strip_end(const PlyProperty& property);

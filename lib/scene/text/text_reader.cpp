@@ -131,9 +131,10 @@ std::string_view TextReader::rest_of_line() {
   return {begin, static_cast<size_t>(last - begin)};
 }
 
-float TextReader::number(const char* what) {
+template <class T>
+T TextReader::parse(const char* what) {
   skip_blanks();
-  float value = 0;
+  T value = 0;
   // Most numbers need no second look; the others are read again, with care.
   const auto result = std::from_chars(at_, end_, value);
   if (result.ec == std::errc() && ends_word(result.ptr)) {
@@ -145,7 +146,15 @@ float TextReader::number(const char* what) {
   return value;
 }
 
-std::array<float, 3> TextReader::position() { return {number("x"), number("y"), number("z")}; }
+float TextReader::number(const char* what) { return parse<float>(what); }
+
+double TextReader::coordinate(const char* what) {
+  return writer_->has_origin() ? within_float(parse<double>(what)) : parse<float>(what);
+}
+
+std::array<double, 3> TextReader::position() {
+  return {coordinate("x"), coordinate("y"), coordinate("z")};
+}
 
 uint64_t TextReader::count(const char* what, uint64_t max) {
   const std::string_view text = word();

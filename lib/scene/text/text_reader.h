@@ -59,8 +59,11 @@ class TextReader {
   // The next word as a number; SCENE_SYNTAX where it is none. `what` is what was expected there.
   // Beyond float's range: the largest float, which the scene's limit then refuses.
   float number(const char* what);
-  // The next three words as numbers x, y and z.
-  std::array<float, 3> position();
+  // The next word as a coordinate: a number in double where the writer has an origin to subtract
+  // from it, else one that number() returns.
+  double coordinate(const char* what);
+  // The next three words as coordinates x, y and z.
+  std::array<double, 3> position();
   // The next word as a number from 0 to `max`, where more is SCENE_SYNTAX too.
   uint64_t count(const char* what, uint64_t max);
   // The next word as the index of one of `vertices` vertices; INDEX where there is no such vertex.
@@ -90,6 +93,8 @@ class TextReader {
                                                                     const char* format, ...) const;
 
  private:
+  template <class T>
+  T parse(const char* what);
   const char* line_end(const char* from) const;
   const char* after_line_end(const char* line_end) const;
   bool ends_word(const char* p) const;

@@ -34,9 +34,9 @@ class ViewsReader {
   sobb_view view(const json& given, const std::string& place) const {
     if (!given.is_object()) refuse_json(path_, place, "is not an object");
     sobb_view result{};
-    read_vector(given, "eye", place, result.eye);
-    read_vector(given, "target", place, result.target);
-    read_vector(given, "up", place, result.up);
+    read_vector(given, "eye", place, writer_.origin(), result.eye);
+    read_vector(given, "target", place, writer_.origin(), result.target);
+    read_vector(given, "up", place, {}, result.up);
     const auto angle = given.find("vfov_degrees");
     if (angle == given.end() || !angle->is_number()) {
       refuse_json(path_, place + ".vfov_degrees", "is not a number");
@@ -49,12 +49,14 @@ class ViewsReader {
     return result;
   }
 
-  void read_vector(const json& given, const char* key, const std::string& place, float* out) const {
+  void read_vector(const json& given, const char* key, const std::string& place, Vec3 origin,
+                   float* out) const {
+    const double from[3] = {origin.x, origin.y, origin.z};
     const auto found = given.find(key);
     bool good = found != given.end() && found->is_array() && found->size() == 3;
     for (size_t k = 0; good && k < 3; ++k) {
       const json& number = (*found)[k];
-      if (number.is_number()) out[k] = float(number.get<double>());
+      if (number.is_number()) out[k] = float(number.get<double>() - from[k]);
       good = number.is_number() && std::isfinite(out[k]);
     }
     if (!good) refuse_json(path_, place + "." + key, "is not an array of three numbers");
