@@ -95,8 +95,7 @@ void GltfPrimitive::write(const GltfTransform& transform, std::span<const double
       for (size_t k = 0; k < 3; ++k) p[k] += displacements[3 * i + k];
     }
     if (!transform.identity) p = transform.point(p);
-    writer.add_vertex(float(p[0]), float(p[1]), float(p[2]),
-                      [&] { return place_ + ", vertex " + std::to_string(i); });
+    writer.add_vertex(p[0], p[1], p[2], [&] { return place_ + ", vertex " + std::to_string(i); });
   };
   const uint64_t base = writer.vertex_count();
   if (corner_count() >= positions_.count()) {
