@@ -28,6 +28,8 @@ class EmbreeQuery {
     rtcIntersect8(valid, scene_, rays, &intersect_);
   }
   void trace(const int* valid, RTCRay8* rays) { rtcOccluded8(valid, scene_, rays, &occluded_); }
+  template <typename Ray>
+  void trace_array(Ray* rays, unsigned count) = delete;  // see kEmbreeHasArrayCall
 
  private:
   RTCScene scene_;

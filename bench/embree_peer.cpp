@@ -125,13 +125,13 @@ template <typename Ray>
 void EmbreePeer::trace_array([[maybe_unused]] std::vector<Ray>& rays,
                              [[maybe_unused]] bool coherent,
                              [[maybe_unused]] Workers& workers) const {
-#if SOBB_EMBREE_MAJOR < 4
-  workers.for_chunks(rays.size(), [&](size_t begin, size_t end) {
-    const FlushDenormals flush;
-    EmbreeQuery query(scene_.get(), coherent);
-    query.trace_array(&rays[begin], static_cast<unsigned>(end - begin));
-  });
-#endif
+  if constexpr (kEmbreeHasArrayCall) {
+    workers.for_chunks(rays.size(), [&](size_t begin, size_t end) {
+      const FlushDenormals flush;
+      EmbreeQuery query(scene_.get(), coherent);
+      query.trace_array(&rays[begin], static_cast<unsigned>(end - begin));
+    });
+  }
 }
 
 }  // namespace sobb::bench

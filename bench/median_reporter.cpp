@@ -16,8 +16,8 @@ bool MedianReporter::ReportContext(const Context& context) {
 void MedianReporter::ReportRuns(const std::vector<Run>& runs) {
   std::vector<Run> shown;
   for (const Run& run : runs) {
-    if (run.error_occurred && failure_.empty()) {
-      failure_ = run.run_name.function_name + ": " + run.error_message;
+    if (const std::string* error = error_of(run); error != nullptr && failure_.empty()) {
+      failure_ = run.run_name.function_name + ": " + *error;
     }
     const bool other_statistic =
         run.run_type == Run::RT_Aggregate && run.aggregate_name != "median";

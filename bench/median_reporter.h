@@ -24,6 +24,16 @@ class MedianReporter : public benchmark::BenchmarkReporter {
  protected:
   bool on_console() const { return on_console_; }
 
+  /// The message of the error that ended @p run, or null. Google Benchmark 1.8 renamed the members.
+  template <typename AnyRun>
+  static const std::string* error_of(const AnyRun& run) {
+    if constexpr (requires { run.error_occurred; }) {
+      return run.error_occurred ? &run.error_message : nullptr;
+    } else {
+      return run.skipped != 0 ? &run.skip_message : nullptr;
+    }
+  }
+
  private:
   benchmark::BenchmarkReporter& display_;
   bool on_console_;

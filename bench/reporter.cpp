@@ -16,7 +16,7 @@ void Reporter::ReportRuns(const std::vector<Run>& runs) {
 
 void Reporter::remember(const Run& run) {
   const auto speed = run.counters.find("Mrays/s");
-  if (run.error_occurred || speed == run.counters.end()) return;
+  if (error_of(run) != nullptr || speed == run.counters.end()) return;
   // Without repetitions there is no aggregate, and the single run is the median.
   const bool sole = run.run_type == Run::RT_Iteration && run.repetitions <= 1;
   if (sole || run.aggregate_name == "median") {

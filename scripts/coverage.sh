@@ -31,7 +31,7 @@ export LLVM_PROFILE_FILE=$counts/%m.profraw
 ctest --preset coverage -j "$(nproc)" --output-log $build/tests.log >/dev/null ||
   { tail -n 20 $build/tests.log; exit 1; }
 SOBB_LIBRARY_PATH=$build/lib .venv/bin/python -m pytest -q python/tests
-llvm-profdata-14 merge -o $build/all.profdata "$counts"/*.profraw
+llvm-profdata merge -o $build/all.profdata "$counts"/*.profraw
 
 # What was compiled, as llvm-cov wants it: the first by itself, the others with -object.
 objects=("$build"/lib/libsobb.so)
@@ -40,7 +40,7 @@ sources=()
 for folder in lib/{base,bounds,builder,format,scene,trace} capi/src; do
   sources+=("$PWD/$folder")
 done
-report() { llvm-cov-14 "$1" "${objects[@]}" -instr-profile=$build/all.profdata "${@:2}"; }
+report() { llvm-cov "$1" "${objects[@]}" -instr-profile=$build/all.profdata "${@:2}"; }
 
 if [[ -n $file ]]; then
   report show "$PWD/$file"

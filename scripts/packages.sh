@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Sourced by the scripts: the Debian 12 packages that the project needs, how they come, and the
-# compilers' cache.
+# Sourced by the scripts: the packages that the project needs, how they come, and the compilers'
+# cache. Debian 12 and 13 have them by the same names, clang and its tools by names without a version.
 
 # Compilers, tools and libraries of a release build, and Python's virtual environments.
 build_packages="g++ cmake ninja-build ccache pkg-config
@@ -8,15 +8,15 @@ build_packages="g++ cmake ninja-build ccache pkg-config
   libopenmesh-dev libdraco-dev libmeshoptimizer-dev libbenchmark-dev libcli11-dev python3-venv"
 
 # What scripts/test.sh needs besides.
-test_packages="git libgtest-dev clang-format-14"
+test_packages="git libgtest-dev"
 
 # What scripts/test.sh --all needs besides: the sanitizers' compiler, clang-tidy, and a browser for
 # the report's pages.
-sanitizer_packages="clang-14 libclang-rt-14-dev"
-check_packages="clang-tidy-14 chromium"
+sanitizer_packages="clang libclang-rt-dev"
+check_packages="clang-tidy chromium"
 
 # What scripts/coverage.sh needs besides.
-coverage_packages="llvm-14"
+coverage_packages="llvm"
 
 # Installs those of the packages named that are missing; needs root or sudo only then.
 need_packages() {

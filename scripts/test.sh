@@ -79,14 +79,14 @@ python_tests() {
 }
 
 format() {
-  git ls-files -z -- '*.c' '*.h' '*.cpp' | xargs -0 clang-format-14 --dry-run -Werror
+  git ls-files -z -- '*.c' '*.h' '*.cpp' | xargs -0 .venv/bin/clang-format --dry-run -Werror
 }
 
 # Over the sanitizer build's commands, which are clang's own. clang-tidy repeats each file's command
 # and counts what it does not show: neither is wanted.
 tidy() {
-  run-clang-tidy-14 -quiet -j "$jobs" -p build/asan "^$PWD/(lib|capi/src)/" 2>&1 |
-    { grep -vE '^clang-tidy-14 |^[0-9]+ warnings generated|^$' || true; }
+  run-clang-tidy -quiet -j "$jobs" -p build/asan "^$PWD/(lib|capi/src)/" 2>&1 |
+    { grep -vE '^clang-tidy(-[0-9]+)? |^[0-9]+ warnings generated|^$' || true; }
 }
 
 # Scripts and charts lie outside the package, so they are told its settings.
