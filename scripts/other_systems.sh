@@ -46,7 +46,7 @@ clean_up() {
 trap clean_up EXIT
 trap 'exit 130' INT TERM
 
-export system=$1 codename root=$folder/$1 packages=$folder/$1-packages compiled=$folder/$1-ccache
+export system=$1 codename target=$folder/$1 packages=$folder/$1-packages compiled=$folder/$1-ccache
 export mirror=${DEBIAN_MIRROR:-}
 if [[ -z $mirror ]]; then
   # shellcheck disable=SC2016 # apt's own placeholders
@@ -56,26 +56,26 @@ fi
 [[ -n $mirror ]] || { echo "apt knows no mirror of Debian; set DEBIAN_MIRROR." >&2; exit 1; }
 
 make_system() {
-  echo "Making a bare $system in $root from $mirror"
-  debootstrap --variant=minbase --cache-dir="$packages" "$codename" "$root" "$mirror" >"$root.log" ||
-    { tail -n 20 "$root.log" >&2; return 1; }
+  echo "Making a bare $system in $target from $mirror"
+  debootstrap --variant=minbase --cache-dir="$packages" "$codename" "$target" "$mirror" >"$target.log" ||
+    { tail -n 20 "$target.log" >&2; return 1; }
   apt-config dump | { grep -E '^Acquire::(https?|Check|Retries)' || true; } \
-    >"$root/etc/apt/apt.conf.d/90host"
-  [[ ! -f /etc/pip.conf ]] || cp /etc/pip.conf "$root/etc"
+    >"$target/etc/apt/apt.conf.d/90host"
+  [[ ! -f /etc/pip.conf ]] || cp /etc/pip.conf "$target/etc"
   local certificates=${PIP_CERT:-/etc/ssl/certs/ca-certificates.crt}
   if [[ -f $certificates ]]; then
-    install -D -m 644 "$certificates" "$root/etc/ssl/host.crt"
-    echo 'Acquire::https::CAInfo "/etc/ssl/host.crt";' >>"$root/etc/apt/apt.conf.d/90host"
+    install -D -m 644 "$certificates" "$target/etc/ssl/host.crt"
+    echo 'Acquire::https::CAInfo "/etc/ssl/host.crt";' >>"$target/etc/apt/apt.conf.d/90host"
     export PIP_CERT=/etc/ssl/host.crt
   fi
-  git clone -q --no-hardlinks . "$root/root/sobb"
+  git clone -q --no-hardlinks . "$target/root/sobb"
 
-  mount -t proc proc "$root/proc"
-  mount --rbind /dev "$root/dev"
-  mount --rbind /sys "$root/sys"
-  mkdir "$root/var/cache/ccache"
-  mount --bind "$packages" "$root/var/cache/apt/archives"
-  mount --bind "$compiled" "$root/var/cache/ccache"
+  mount -t proc proc "$target/proc"
+  mount --rbind /dev "$target/dev"
+  mount --rbind /sys "$target/sys"
+  mkdir "$target/var/cache/ccache"
+  mount --bind "$packages" "$target/var/cache/apt/archives"
+  mount --bind "$compiled" "$target/var/cache/ccache"
 }
 
 # Runs a command in the clone, with nothing of the environment but what the head of this file names.
@@ -87,7 +87,7 @@ in_system() {
       PIP_* | *_proxy | *_PROXY | CMAKE_BUILD_PARALLEL_LEVEL) environment+=("$name=${!name}") ;;
     esac
   done
-  chroot "$root" env -i "${environment[@]}" /bin/bash -c "cd /root/sobb && exec $1"
+  chroot "$target" env -i "${environment[@]}" /bin/bash -c "cd /root/sobb && exec $1"
 }
 
 prove() {
@@ -102,12 +102,12 @@ prove() {
     report+=$(printf '%-16s %s, %d s' "$command" "$result" $((SECONDS - start)))$'\n'
   done
   printf '\nDebian %s, bare; %d processors; the compilers'\'' cache was %s\n%s' \
-    "$(<"$root/etc/debian_version")" "$(nproc)" "$cache" "$report"
+    "$(<"$target/etc/debian_version")" "$(nproc)" "$cache" "$report"
   ((failures == 0))
 }
 
 mkdir -p "$packages" "$compiled"
-rm -rf --one-file-system "$root"
+rm -rf --one-file-system "$target"
 export -f make_system in_system prove
 unshare --mount --pid --fork --kill-child bash -euo pipefail -c prove &
 inside=$!
