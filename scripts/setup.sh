@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes everything that the demo needs, on a bare Debian 12: packages, the virtual environment
+# Makes everything that the demo needs, on a bare Debian 12 or 13: packages, the virtual environment
 # .venv with the Python package, and the release build in build/release. Quick when all is there.
 # usage: scripts/setup.sh [--tests] [--research]
 #   --tests      builds the tests, too
