@@ -4,8 +4,9 @@
 # makes the system with debootstrap (minbase), enters it with chroot, runs both and prints their
 # times. Needs root. The exit code is 0 where both passed.
 # usage: scripts/other_systems.sh debian12|debian13 [FOLDER]
-#   FOLDER   outside of the checkout, keeps the system's packages and the compilers' cache for the
-#            next run, which makes the system anew; by default a temporary one, removed at the end
+#   FOLDER   outside of the checkout, keeps Debian's and Python's packages and the compilers' cache
+#            for the next run, which makes the system anew; by default a temporary one, removed at
+#            the end
 # The mirror is the one of this machine's apt, or the environment's DEBIAN_MIRROR. The system is given
 # this machine's settings of apt and pip, its certificates, and the environment's PIP_*, proxies and
 # CMAKE_BUILD_PARALLEL_LEVEL.
@@ -46,7 +47,7 @@ clean_up() {
 trap clean_up EXIT
 trap 'exit 130' INT TERM
 
-export system=$1 codename target=$folder/$1 packages=$folder/$1-packages compiled=$folder/$1-ccache
+export system=$1 codename target=$folder/$1 kept=$folder/$1-kept
 export mirror=${DEBIAN_MIRROR:-}
 if [[ -z $mirror ]]; then
   # shellcheck disable=SC2016 # apt's own placeholders
@@ -57,15 +58,16 @@ fi
 
 make_system() {
   echo "Making a bare $system in $target from $mirror"
-  debootstrap --variant=minbase --cache-dir="$packages" "$codename" "$target" "$mirror" >"$target.log" ||
-    { tail -n 20 "$target.log" >&2; return 1; }
-  apt-config dump | { grep -E '^Acquire::(https?|Check|Retries)' || true; } \
-    >"$target/etc/apt/apt.conf.d/90host"
+  debootstrap --variant=minbase --cache-dir="$kept/apt" "$codename" "$target" "$mirror" \
+    >"$kept/debootstrap.log" || { tail -n 20 "$kept/debootstrap.log" >&2; return 1; }
+  local settings=$target/etc/apt/apt.conf.d/90host
+  echo 'Dir::Cache::archives "/var/cache/kept/apt";' >"$settings"
+  apt-config dump | { grep -E '^Acquire::(https?|Check|Retries)' || true; } >>"$settings"
   [[ ! -f /etc/pip.conf ]] || cp /etc/pip.conf "$target/etc"
   local certificates=${PIP_CERT:-/etc/ssl/certs/ca-certificates.crt}
   if [[ -f $certificates ]]; then
     install -D -m 644 "$certificates" "$target/etc/ssl/host.crt"
-    echo 'Acquire::https::CAInfo "/etc/ssl/host.crt";' >>"$target/etc/apt/apt.conf.d/90host"
+    echo 'Acquire::https::CAInfo "/etc/ssl/host.crt";' >>"$settings"
     export PIP_CERT=/etc/ssl/host.crt
   fi
   git clone -q --no-hardlinks . "$target/root/sobb"
@@ -73,15 +75,14 @@ make_system() {
   mount -t proc proc "$target/proc"
   mount --rbind /dev "$target/dev"
   mount --rbind /sys "$target/sys"
-  mkdir "$target/var/cache/ccache"
-  mount --bind "$packages" "$target/var/cache/apt/archives"
-  mount --bind "$compiled" "$target/var/cache/ccache"
+  mkdir "$target/var/cache/kept"
+  mount --bind "$kept" "$target/var/cache/kept"
 }
 
 # Runs a command in the clone, with nothing of the environment but what the head of this file names.
 in_system() {
   local environment=(HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8
-    CCACHE_DIR=/var/cache/ccache) name
+    CCACHE_DIR=/var/cache/kept/ccache PIP_CACHE_DIR=/var/cache/kept/pip) name
   for name in $(compgen -e); do
     case "$name" in
       PIP_* | *_proxy | *_PROXY | CMAKE_BUILD_PARALLEL_LEVEL) environment+=("$name=${!name}") ;;
@@ -92,7 +93,7 @@ in_system() {
 
 prove() {
   local cache=empty report="" failures=0 command start result
-  [[ -z $(ls "$compiled") ]] || cache="from an earlier run"
+  [[ ! -d $kept/ccache ]] || cache="from an earlier run"
   make_system
   for command in scripts/demo.sh scripts/test.sh; do
     printf '\n== %s: %s\n' "$system" "$command"
@@ -106,7 +107,7 @@ prove() {
   ((failures == 0))
 }
 
-mkdir -p "$packages" "$compiled"
+mkdir -p "$kept/apt"
 rm -rf --one-file-system "$target"
 export -f make_system in_system prove
 unshare --mount --pid --fork --kill-child bash -euo pipefail -c prove &
