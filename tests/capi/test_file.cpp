@@ -2,6 +2,8 @@
 // Save and open through the C ABI: the same bytes and hits; what cannot be opened says why.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "capi/counting_allocator.h"
 #include "capi/handles.h"
 #include "format/temporary_folder.h"

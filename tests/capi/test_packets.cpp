@@ -3,6 +3,7 @@
 // bits as ray by ray, whatever they look along, and whatever stands among them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>

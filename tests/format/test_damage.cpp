@@ -2,6 +2,7 @@
 // A file with any byte missing, added or changed is refused, or safe to walk.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 

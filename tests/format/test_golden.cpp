@@ -2,6 +2,7 @@
 // Every later library has to read, or refuse, the files of tests/golden as this one does.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 #include <fstream>

@@ -2,6 +2,7 @@
 // Opening asks the caller whether to go on, however large and hostile the file is.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>

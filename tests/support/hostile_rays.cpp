@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/hostile_rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sobb::test {

@@ -28,7 +28,7 @@ void Workbench::build_topology() {
   int count = 1;
   for (int i = 0; i < count; ++i) {
     topology_.reset();
-    topology_.emplace(scene_.triangles(), scheduler_, memory);
+    topology_ = std::make_unique<study::SharedTopology>(scene_.triangles(), scheduler_, memory);
     const TopologyTimes times{topology_->topology_ms(),
                               {topology_->layout_ms(2), topology_->layout_ms(8)}};
     topology_times_.push_back(times);

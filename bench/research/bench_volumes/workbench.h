@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "bench_volumes/options.h"
@@ -57,7 +56,7 @@ class Workbench {
   SceneInput scene_;
   Scheduler scheduler_;
   Stopwatch clock_;
-  std::optional<study::SharedTopology> topology_;
+  std::unique_ptr<study::SharedTopology> topology_;
   std::vector<TopologyTimes> topology_times_;
   std::vector<Subject> subjects_;
   RayGroups groups_;

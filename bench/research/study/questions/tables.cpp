@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What does another direction table bring? The answer has areas of the binary hierarchy, and the
 // volumes and triangles that a secondary ray tests there and on the library's 8-wide nodes.
+#include <algorithm>
 #include <filesystem>
 
 #include "builder/boxes/frame.h"

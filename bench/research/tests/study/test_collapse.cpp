@@ -3,6 +3,7 @@
 // keep their limits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "study/binary/leaf_choice.h"
