@@ -29,19 +29,20 @@ need_packages debootstrap git
 
 inside=
 if (($# == 2)); then
-  mkdir -p "$2"
-  folder=$(cd "$2" && pwd -P)
+  folder=$(realpath -m "$2")
   removed=$folder/$1
+  [[ $folder/ != "$(pwd -P)"/* ]] || { echo "$folder lies in the checkout." >&2; exit 2; }
 else
   folder=$(mktemp -d)
   removed=$folder
 fi
-[[ $folder/ != "$(pwd -P)"/* ]] || { echo "$folder lies in the checkout." >&2; exit 2; }
 
 # The system's processes and mounts have namespaces of their own, which end with their first process:
 # nothing stays mounted, however this script ends, and nothing mounted is in reach of rm.
 clean_up() {
-  [[ -z $inside ]] || kill -KILL "$inside" 2>/dev/null || true
+  if [[ -n $inside ]]; then
+    { kill -KILL "$inside" && wait "$inside"; } 2>/dev/null || true
+  fi
   rm -rf --one-file-system "$removed"
 }
 trap clean_up EXIT
