@@ -11,6 +11,7 @@
 # this machine's settings of apt and pip, its certificates, and the environment's PIP_*, proxies and
 # CMAKE_BUILD_PARALLEL_LEVEL.
 set -euo pipefail
+folder=${2:+$(realpath -m "$2")} # named from where the caller is
 cd "$(dirname "$0")/.."
 source scripts/packages.sh
 
@@ -28,8 +29,7 @@ esac
 need_packages debootstrap git
 
 inside=
-if (($# == 2)); then
-  folder=$(realpath -m "$2")
+if [[ -n $folder ]]; then
   removed=$folder/$1
   [[ $folder/ != "$(pwd -P)"/* ]] || { echo "$folder lies in the checkout." >&2; exit 2; }
 else
