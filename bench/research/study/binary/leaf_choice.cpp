@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/binary/leaf_choice.h"
 
+#include "builder/boxes/references.h"
 #include "study/binary/sah_costs.h"
 
 namespace sobb::study {

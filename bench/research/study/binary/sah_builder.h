@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bounds/area.h"
+#include "builder/boxes/references.h"
 #include "study/binary/area_measure.h"
 
 namespace sobb::study {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "builder/boxes/references.h"
 #include "builder/wide/collapse.h"
 #include "study/binary/sah_costs.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "builder/boxes/references.h"
 #include "study/binary/leaf_choice.h"
 #include "study/binary/sah_costs.h"
 #include "study/wide/exact_collapse.h"
