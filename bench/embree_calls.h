@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One spelling for the tracing calls of Embree 3 and 4, which take their context differently.
+// Embree 3 or 4: its header, and one spelling for its tracing calls, which take their context
+// differently.
 #pragma once
 
 #if SOBB_EMBREE_MAJOR >= 4

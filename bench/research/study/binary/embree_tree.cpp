@@ -3,12 +3,6 @@
 
 #ifdef SOBB_EMBREE_MAJOR
 
-#if SOBB_EMBREE_MAJOR >= 4
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
-
 #include <algorithm>
 #include <memory>
 #include <new>
@@ -17,6 +11,7 @@
 
 #include "builder/boxes/box.h"
 #include "builder/boxes/references.h"
+#include "embree_calls.h"
 #include "format/layout.h"
 
 namespace sobb::study {
