@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "builder/boxes/box.h"
+
 namespace sobb::study {
 namespace {
 
