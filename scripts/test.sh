@@ -119,6 +119,8 @@ else
   check "wheel" scripts/wheel_check.sh
   check "builds inside of other projects" scripts/guest_check.sh
   beside "Python tests" python_tests
+  check "build without TBB" build no_tbb
+  check "C++ tests without TBB" ctest --preset no_tbb -j "$jobs"
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
   finish_beside
