@@ -18,8 +18,6 @@ constexpr uint64_t kMostRanges = 16;
 // The grid is the coarsest whose cells have this many triangles or fewer on average.
 constexpr uint64_t kTrianglesPerCell = 512;
 constexpr uint32_t kMostBits = kMostCellLevels / 3;  // of a coordinate
-// The grid covers the centres of this many triangles; others are in the cells at its border.
-constexpr uint64_t kSamples = 1 << 12;
 
 // Spreads the bits of a coordinate to every third bit.
 constexpr auto make_spread() {
@@ -36,24 +34,27 @@ constexpr auto kSpread = make_spread();
 // Twice the centre of a box, along one axis.
 float centre_of(const Box& box, int axis) { return box.lower[axis] + box.upper[axis]; }
 
+struct CentreBounds {
+  float lower[3] = {kNone, kNone, kNone};
+  float upper[3] = {-kNone, -kNone, -kNone};
+
+  static constexpr float kNone = std::numeric_limits<float>::infinity();
+
+  void grow(int axis, float least, float greatest) {
+    lower[axis] = std::min(lower[axis], least);
+    upper[axis] = std::max(upper[axis], greatest);
+  }
+};
+
 class Grid {
  public:
-  Grid(const Mesh& mesh, const Frame& frame, std::span<const uint32_t> triangles) {
-    while (bits_ < kMostBits && (kTrianglesPerCell << 3 * bits_) < triangles.size()) ++bits_;
+  Grid(const CentreBounds& bounds, uint64_t triangle_count) {
+    while (bits_ < kMostBits && (kTrianglesPerCell << 3 * bits_) < triangle_count) ++bits_;
     const float side = static_cast<float>(1 << bits_);
     last_ = side - 1;
-    float upper[3];
-    std::fill_n(lower_, 3, std::numeric_limits<float>::infinity());
-    std::fill_n(upper, 3, -std::numeric_limits<float>::infinity());
-    for (uint64_t i = 0; i < triangles.size(); i += triangles.size() / kSamples + 1) {
-      const Box box = box_of(mesh, triangles[i], frame);
-      for (int k = 0; k < 3; ++k) {
-        lower_[k] = std::min(lower_[k], centre_of(box, k));
-        upper[k] = std::max(upper[k], centre_of(box, k));
-      }
-    }
     for (int k = 0; k < 3; ++k) {
-      const float scale = side / (upper[k] - lower_[k]);
+      const float scale = side / (bounds.upper[k] - bounds.lower[k]);
+      lower_[k] = bounds.lower[k];
       scale_[k] = std::isfinite(scale) ? scale : 0;
     }
   }
@@ -63,7 +64,7 @@ class Grid {
   uint32_t cell_of(const Box& box) const {
     uint32_t cell = 0;
     for (int k = 0; k < 3; ++k) {
-      const float at = std::clamp((centre_of(box, k) - lower_[k]) * scale_[k], 0.0F, last_);
+      const float at = std::min((centre_of(box, k) - lower_[k]) * scale_[k], last_);
       cell |= uint32_t{kSpread[static_cast<uint32_t>(at)]} << k;
     }
     return cell;
@@ -75,6 +76,25 @@ class Grid {
   float lower_[3];
   float scale_[3];
 };
+
+CentreBounds bounds_of(const Mesh& mesh, const Frame& frame, std::span<const uint32_t> triangles,
+                       uint64_t grain, const Scheduler& scheduler,
+                       std::pmr::memory_resource& memory) {
+  std::pmr::vector<CentreBounds> ranges((triangles.size() + grain - 1) / grain, &memory);
+  scheduler.for_ranges(triangles.size(), grain, [&](uint64_t begin, uint64_t end) {
+    CentreBounds own;
+    for (uint64_t i = begin; i < end; ++i) {
+      const Box box = box_of(mesh, triangles[i], frame);
+      for (int k = 0; k < 3; ++k) own.grow(k, centre_of(box, k), centre_of(box, k));
+    }
+    ranges[begin / grain] = own;
+  });
+  CentreBounds all;
+  for (const CentreBounds& range : ranges) {
+    for (int k = 0; k < 3; ++k) all.grow(k, range.lower[k], range.upper[k]);
+  }
+  return all;
+}
 
 // Turns the number of triangles that each range has of each cell into the place of the first.
 MortonCells place_ranges(std::span<uint32_t> counts, uint64_t cell_count,
@@ -103,9 +123,9 @@ bool MortonCells::is_one() const {
 MortonCells sort_into_cells(const Mesh& mesh, const Frame& frame, std::span<uint32_t> triangles,
                             const Scheduler& scheduler, std::pmr::memory_resource& memory) {
   const uint64_t count = triangles.size();
-  const Grid grid(mesh, frame, triangles);
-  const uint64_t cell_count = grid.cell_count();
   const uint64_t grain = std::max(kLeastGrain, (count + kMostRanges - 1) / kMostRanges);
+  const Grid grid(bounds_of(mesh, frame, triangles, grain, scheduler, memory), count);
+  const uint64_t cell_count = grid.cell_count();
   Array<uint16_t> cell_of(count, memory);
   Array<uint32_t> unsorted(count, memory);
   std::pmr::vector<uint32_t> places((count + grain - 1) / grain * cell_count, &memory);

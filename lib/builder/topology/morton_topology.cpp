@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "builder/topology/morton_topology.h"
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 #include <span>
@@ -14,14 +15,17 @@ namespace sobb {
 namespace {
 
 constexpr uint64_t kGrain = 1 << 14;
-// Cells are joined to subtrees of at most this many references: few enough for a cache.
-constexpr uint64_t kSubtreeReferences = 2048;
+// Cells are joined to subtrees of at most 1/kSubtreeParts of the references, within these bounds:
+// enough subtrees to share among threads, each small enough for a cache. Larger ones make builds
+// slower and rays faster.
+constexpr uint64_t kSubtreeParts = 16;
+constexpr uint64_t kLeastSubtree = 1 << 11;
+constexpr uint64_t kMostSubtree = 1 << 14;
 // A cell of more references is sorted into a grid of its own.
 constexpr uint64_t kLargeCell = 1 << 14;
 // Nodes of at most this many references are split in the middle. A larger number makes builds
-// faster and rays slower: without the surface area heuristic they would take 0.9 to 1.05 of the
-// time that they take in a hierarchy of Embree's low quality, with it above 128 it is 0.8 to 1.
-constexpr uint64_t kMiddleCount = 128;
+// faster and rays slower (docs/experiments.md).
+constexpr uint64_t kMiddleCount = 256;
 // The share of the progress that the top takes, by measured time.
 constexpr double kTopShare = 0.25;
 
@@ -34,6 +38,8 @@ class MortonBuilder {
         scheduler_(scheduler),
         memory_(memory),
         frame_(frame),
+        subtree_references_(
+            std::clamp(mesh.triangle_count() / kSubtreeParts, kLeastSubtree, kMostSubtree)),
         triangles_(mesh.triangle_count(), memory),
         top_(memory) {
     scheduler.for_ranges(triangles_.size(), kGrain, [&](uint64_t begin, uint64_t end) {
@@ -43,7 +49,7 @@ class MortonBuilder {
 
   void make_top(Progress& progress, double progress_end) {
     std::pmr::vector<Group> groups(&memory_);
-    add({0, triangles_.size(), {}, 0}, kSubtreeReferences, groups);
+    add({0, triangles_.size(), {}, 0}, subtree_references_, groups);
     while (!groups.empty()) {
       progress.check(0, progress_end, 0);
       const Group group = groups.back();
@@ -92,7 +98,7 @@ class MortonBuilder {
                  std::pmr::vector<Group>& groups) {
     const std::pmr::vector<uint64_t>& begin = cells.begin;
     const uint64_t count = begin[last] - begin[first];
-    while (count > kSubtreeReferences && last - first > 1) {
+    while (count > subtree_references_ && last - first > 1) {
       const uint64_t middle = (first + last) / 2;
       if (begin[middle] == begin[first]) {
         first = middle;
@@ -144,6 +150,7 @@ class MortonBuilder {
   const Scheduler& scheduler_;
   Memory& memory_;
   const Frame& frame_;
+  const uint64_t subtree_references_;
   Array<uint32_t> triangles_;  // becomes the references of the leaves
   Treetop top_;
 };
