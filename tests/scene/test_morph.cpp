@@ -136,7 +136,7 @@ TEST(Morph, RefusesBadTargetsOnlyWhereTheyAreApplied) {
   mesh["weights"] = {0, 0, 1};
   expect_error(file, SOBB_ERROR_SCENE_SYNTAX, "displaces 1 vertices of 4");
   mesh["weights"] = {1e300, 0, 0};
-  expect_error(file, SOBB_ERROR_NOT_FINITE, "vertex 0");
+  expect_error(file, SOBB_ERROR_NOT_FINITE, "meshes[0].primitives[0]");
 }
 
 TEST(Morph, HoldsItsSumsAgainstTheLimit) {

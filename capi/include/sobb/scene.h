@@ -11,11 +11,12 @@
  * images never decoded. A bad item that the triangles do not need costs that item and a note, never
  * the scene: see sobb_scene_note.
  *
- * glTF: every node of the default scene, but those that KHR_node_visibility hides; positions as
- * default weights of morph targets displace them. KHR_draco_mesh_compression and
- * EXT_meshopt_compression (KHR_meshopt_compression) are decoded where the library was built with
- * libdraco and libmeshoptimizer, else refused by name unless the file has the elements uncompressed
- * too. Required extensions that move no triangle are noted; those that may are refused by name.
+ * glTF: every node of the default scene, one of several parents below each, but those that
+ * KHR_node_visibility hides; positions as default weights of morph targets displace them.
+ * KHR_draco_mesh_compression and EXT_meshopt_compression (KHR_meshopt_compression) are decoded
+ * where the library was built with libdraco and libmeshoptimizer, else refused by name unless the
+ * file has the elements uncompressed too. Required extensions that move no triangle are noted;
+ * those that may are refused by name.
  *
  * Built-in scenes: `builtin:NAME[:TRIANGLES][@DEGREES]` with NAME one of hairball, wool, pipes,
  * foliage, city, terrain; 250,000 triangles unless said, as near as the scene's parts allow and
@@ -87,8 +88,9 @@ typedef struct sobb_scene_options {
   /**
    * Bytes that loading may hold at once, the scene's own included; 0 for none, but for JSON and for
    * a primitive's Draco data, which may then take 4 GiB. (Under a limit the latter ask for room by
-   * the most that libdraco may need, some 900 bytes per byte and 4 MiB.) A small file may ask for a large scene (a glTF that places one mesh many
-   * times), so give a limit with files of unknown origin.
+   * the most that libdraco may need, some 900 bytes per byte and 4 MiB.) A small file may ask for a
+   * large scene (a glTF that places one mesh many times), so give a limit with files of unknown
+   * origin.
    */
   uint64_t memory_limit;
   /**
