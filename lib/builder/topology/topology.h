@@ -4,7 +4,8 @@
 //
 // The room `builder/topology` chooses a binary hierarchy: morton_topology makes low quality,
 // topology_builder the others, both with the kernels of `builder/sah`; reinsertion improves what
-// the latter made. It knows `builder/boxes` and `builder/sah`; `builder/wide` takes the hierarchy from here.
+// the latter made. It knows `builder/boxes` and `builder/sah`; `builder/wide` takes the hierarchy
+// from here.
 #pragma once
 
 #include <cstdint>
