@@ -65,4 +65,8 @@ if(sobb_programs)
   file(RELATIVE_PATH sobb_lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
   set_target_properties(${sobb_programs} PROPERTIES INSTALL_RPATH "$ORIGIN/${sobb_lib_from_bin}")
   install(TARGETS ${sobb_programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  # sobb_bench loads it from where the libraries lie.
+  if(TARGET sobb_bench_embree)
+    install(TARGETS sobb_bench_embree LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  endif()
 endif()
