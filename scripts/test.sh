@@ -20,7 +20,7 @@ esac
 jobs=$(nproc)
 log=$(mktemp)
 beside_log=$(mktemp)
-trap 'rm -f "$log" "$beside_log"' EXIT
+trap 'jobs -p | xargs -r kill; rm -f "$log" "$beside_log"' EXIT
 passed=0
 failed=0
 
@@ -108,22 +108,22 @@ if [[ $all == yes ]]; then
 fi
 check "release build, g++" scripts/setup.sh --tests --research
 use_ccache
+beside "Python tests" python_tests # one process, and all cores but one for the rest
 check "C++ tests" ctest --preset release -j "$jobs"
 check "clang-format" format
 if [[ $all == no ]]; then
-  check "Python tests" python_tests
+  finish_beside
   printf '\nLeft out, --all runs them: linters, the wheel, other projects, sanitizers, the fuzzers.\n'
 else
   check "ruff" ruff
   check "mypy" types
   check "wheel" scripts/wheel_check.sh
+  finish_beside
   check "builds inside of other projects" scripts/guest_check.sh
-  beside "Python tests" python_tests
   check "build without TBB" build no_tbb
   check "C++ tests without TBB" ctest --preset no_tbb -j "$jobs"
   check "sanitizer build, clang" build asan
   check "clang-tidy" tidy
-  finish_beside
   check "C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer" \
     ctest --preset asan -j "$jobs"
   check "short fuzz run" scripts/fuzz.sh 2
