@@ -13,8 +13,9 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python3 -m venv "$folder/venv"
 # With the flags of the release build the compilers' cache has all objects.
-"$folder/venv/bin/pip" install --quiet --disable-pip-version-check \
-  --config-settings=cmake.define.SOBB_WERROR=ON ./python build
+"$folder/venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps \
+  --config-settings=cmake.define.SOBB_WERROR=ON --wheel-dir "$folder" ./python
+"$folder/venv/bin/pip" install --quiet --disable-pip-version-check "$folder"/sobb-*.whl build
 "$folder/venv/bin/python" -m build --sdist --outdir "$folder" python >/dev/null
 
 # The studies, their charts and the tests of bench/research stay at home.
@@ -26,8 +27,6 @@ tar --list --file "$folder"/sobb-*.tar.gz | grep -v '/$' | sed 's|^[^/]*||; s|^/
 diff "$folder/sources" "$folder/shipped" ||
   { echo "< is not in the source distribution, > is there in vain" >&2; exit 1; }
 
-"$folder/venv/bin/pip" wheel --quiet --disable-pip-version-check --no-deps \
-  --config-settings=cmake.define.SOBB_WERROR=ON --wheel-dir "$folder" ./python
 size=$(stat --format %s "$folder"/sobb-*.whl)
 echo "the wheel has $size bytes"
 ((size <= 6 << 20)) || { echo "more than 6 MiB" >&2; exit 1; }
