@@ -227,7 +227,8 @@ void bound(const SahReference* references, uint64_t count, SahExtent& extent) {
   for (size_t at = 0; at < 8; at += hn::Lanes(d8)) {
     auto box = hn::Load(d8, extent.box.at + at);
     for (uint64_t i = 0; i < count; ++i) {
-      box = hn::Min(hn::Load(d8, references[i].lower + at), box);
+      const auto* words = reinterpret_cast<const float*>(&references[i]);  // all eight of them
+      box = hn::Min(hn::Load(d8, words + at), box);
     }
     hn::Store(box, d8, extent.box.at + at);
   }
