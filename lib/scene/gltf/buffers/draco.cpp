@@ -92,7 +92,7 @@ class DracoStages {
   // Predicting texture coordinates reads a length that libdraco does not check. Encoders never code
   // them as one with positions, nor before. (The method is the last but one byte read.)
   bool may_predict() {
-    const int method = buffer_.data_head()[-2];
+    const int method = static_cast<uint8_t>(buffer_.data_head()[-2]);
     if (method != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE &&
         method != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED) {
       return true;
