@@ -71,7 +71,7 @@ make_system() {
     echo 'Acquire::https::CAInfo "/etc/ssl/host.crt";' >>"$settings"
     export PIP_CERT=/etc/ssl/host.crt
   fi
-  git clone -q --no-hardlinks . "$target/root/sobb"
+  git clone -q --no-hardlinks . "$target/opt/sobb"
 
   mount -t proc proc "$target/proc"
   mount --rbind /dev "$target/dev"
@@ -89,7 +89,7 @@ in_system() {
       PIP_* | *_proxy | *_PROXY | CMAKE_BUILD_PARALLEL_LEVEL) environment+=("$name=${!name}") ;;
     esac
   done
-  chroot "$target" env -i "${environment[@]}" /bin/bash -c "cd /root/sobb && exec $1"
+  chroot "$target" env -i "${environment[@]}" /bin/bash -c "cd /opt/sobb && exec $1"
 }
 
 prove() {

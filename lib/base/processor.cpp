@@ -28,7 +28,7 @@ bool has(unsigned word, std::initializer_list<int> bits) {
   return std::all_of(bits.begin(), bits.end(), [&](int bit) { return (word >> bit & 1) != 0; });
 }
 
-// Whether the system saves the registers of SSE and AVX, bits 1 and 2 of XCR0.
+// Tells whether the system saves the registers of SSE and AVX, bits 1 and 2 of XCR0.
 bool saves_avx(const CpuidWords& basic) {
   if (!has(basic.ecx, {27})) return false;  // OSXSAVE: xgetbv may be used
   unsigned low = 0;

@@ -107,7 +107,7 @@ TEST(Polygon, ConvexOnesKeepTheFan) {
   Polygon circle;
   for (int i = 0; i < 1000; ++i) {
     const SinCos angle = sin_cos(i / 1000.0);
-    // As a file would round them.
+    // A file holds them as floats.
     circle.push_back({double(float(angle.cos)), 5, double(float(angle.sin))});
   }
   EXPECT_TRUE(fan_covers(circle));

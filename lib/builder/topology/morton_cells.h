@@ -23,7 +23,7 @@ struct MortonCells {
 
   uint64_t count() const { return begin.size() - 1; }
   uint64_t triangle_count() const { return begin.back(); }
-  // Whether one cell has all triangles.
+  // Tells whether one cell has all triangles.
   bool is_one() const;
 };
 

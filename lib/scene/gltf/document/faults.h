@@ -18,7 +18,7 @@ class GltfFaults {
  public:
   // Item `index` of its kind is malformed; `fault` says its place and what is wrong.
   void add(GltfItem kind, size_t index, std::string fault);
-  // The same for a part of an item, which no triangle needs.
+  // Notes a fault of a part of an item, a part that no triangle needs.
   void add_part(std::string fault) { add(GltfItem::kPart, faults_.size(), std::move(fault)); }
 
   bool has(GltfItem kind, size_t index) const { return faults_.count({kind, index}) != 0; }
