@@ -63,7 +63,7 @@ void add(const EmbreeNode& node, BinaryTree& tree) {
 }  // namespace
 
 BinaryTree embree_tree(const Mesh& mesh) {
-  // One thread only: Embree orders siblings by the thread that ends first.
+  // The device has one thread: with more, the order of siblings would depend on them.
   const std::unique_ptr<RTCDeviceTy, decltype(&rtcReleaseDevice)> device(rtcNewDevice("threads=1"),
                                                                          rtcReleaseDevice);
   if (device == nullptr) throw std::runtime_error("Embree has no device");
